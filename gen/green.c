@@ -1,0 +1,57 @@
+/* green.c - integrand and edge to an exact polynomial; the only file that knows Green's theorem.
+ *
+ * For a monomial, div((x,y) x^m y^n) = (m+n+2) x^m y^n, hence over any closed boundary
+ *
+ *     integral of x^m y^n dA = 1/(m+n+2) * sum over edges of  integral of x^m y^n (x dy - y dx)      (form 3)
+ *
+ * A line edge is x = s x0 + t x1, y = s y0 + t y1 with s = 1 - t, so that x dy - y dx = (x0 y1 - x1 y0) dt, and
+ * every power product of s and t integrates to  int_0^1 s^a t^b dt = 1 / ((a+b+1) C(a+b, b)). Keeping s and t as
+ * separate variables keeps every coefficient positive and small. Form 3 is used for every integrand, so that
+ * edges of different kinds may be mixed in one boundary. */
+#include "gen.h"
+
+Poly green_cross(void)
+{
+	return poly_sub(poly_mul(poly_var(VAR_X0), poly_var(VAR_Y1)), poly_mul(poly_var(VAR_X1), poly_var(VAR_Y0)));
+}
+
+/* Integral over 0..1 of a polynomial in s and t. */
+static Poly integrate(Poly a)
+{
+	Term *term = allocate((size_t)a.count * sizeof(Term));
+	for (int i = 0; i < a.count; ++i) {
+		int p = mono_power(a.term[i].mono, VAR_S), q = mono_power(a.term[i].mono, VAR_T);
+		Mono rest = a.term[i].mono - mono_var(VAR_S, p) - mono_var(VAR_T, q);
+		Rat beta = rat(1, int_mul(p + q + 1, int_binomial(p + q, q)));
+		term[i] = (Term){ rest, rat_mul(a.term[i].coef, beta) };
+	}
+	return poly_collect(term, a.count);
+}
+
+static Poly along(int start, int end)
+{
+	return poly_add(poly_mul(poly_var(VAR_S), poly_var(start)), poly_mul(poly_var(VAR_T), poly_var(end)));
+}
+
+/* 1/(m+n+2) int x^m y^n dt along the line, for every term of the integrand. */
+static Poly line_density(Poly integrand)
+{
+	static const int xy[] = { VAR_X, VAR_Y };
+	const Poly line[] = { along(VAR_X0, VAR_X1), along(VAR_Y0, VAR_Y1) };
+	Term *term = allocate((size_t)integrand.count * sizeof(Term));
+	for (int i = 0; i < integrand.count; ++i) {
+		Mono mono = integrand.term[i].mono;
+		int degree = mono_power(mono, VAR_X) + mono_power(mono, VAR_Y);
+		term[i] = (Term){ mono, rat_div(integrand.term[i].coef, rat(degree + 2, 1)) };
+	}
+	return integrate(poly_substitute((Poly){ integrand.count, term }, xy, line, 2));
+}
+
+Integral green_line(Poly integrand)
+{
+	Integral integral;
+	integral.density = line_density(integrand);
+	integral.value = poly_mul(green_cross(), integral.density);
+	integral.magnitude = poly_mul(poly_abs(green_cross()), line_density(poly_abs(integrand)));
+	return integral;
+}

@@ -1,0 +1,137 @@
+/* kernel.c - the list of kernels of a request, each built, proven and bounded; the pipeline in two short functions.
+ *
+ * Precisions share a program: only constants and the name of the type differ. Targets without FMA run the portable
+ * program, the others the fused one. The finish program of a ring is the same for all. */
+#include "gen.h"
+
+typedef struct { const char *letters; Text *text; } Dump;   /* p polynomials, d dag, f fused, s schedule */
+
+static int wants(const Dump *dump, char letter)
+{
+	for (const char *p = dump->letters; p && *p; ++p)
+		if (*p == letter)
+			return 1;
+	return 0;
+}
+
+static void dump_polynomials(const Dump *dump, const char *name, const Integral *want, int count)
+{
+	if (!wants(dump, 'p'))
+		return;
+	for (int j = 0; j < count; ++j)
+		text_add(dump->text, "%s: polynomial %d\n  %s\n", name, j, poly_text(want[j].value));
+}
+
+static void dump_dag(const Dump *dump, char letter, const char *name, const Dag *dag)
+{
+	if (!wants(dump, letter))
+		return;
+	text_add(dump->text, "%s: %s, scheme %s\n", name, letter == 'd' ? "dag" : "fused", dag->scheme);
+	dag_dump(dump->text, dag);
+	for (int j = 0; j < dag->finishes; ++j)
+		text_add(dump->text, "  finish %d = %s\n", j, poly_text(dag->finish[j]));
+}
+
+static Program scheduled(const Dump *dump, const char *name, const char *what, const Dag *dag,
+	const Integral *want, int count)
+{
+	Program program = schedule(dag);
+	prove_program(&program, want, count);
+	if (wants(dump, 's')) {
+		text_add(dump->text, "%s: schedule, %s\n", name, what);
+		program_dump(dump->text, &program);
+	}
+	return program;
+}
+
+static Edge dumped_edge(const Integrand *what, const Dump *dump)
+{
+	Edge edge = { .what = what, .integral = green_line(what->integrand) };
+	const char *name = format("line_%s", what->name);
+	Dag *dag = scheme_edge(&edge.integral);
+	dump_polynomials(dump, name, &edge.integral, 1);
+	dump_dag(dump, 'd', name, dag);
+	prove_dag(dag, &edge.integral, 1, "scheme");
+	if (!dag_reverses(dag))
+		bug("swapping the ends of the edge does not negate %s bit for bit", name);
+	edge.program = scheduled(dump, name, "portable", dag, &edge.integral, 1);
+	edge.bound = bound_edge(dag, &edge.integral);
+	return edge;
+}
+
+Edge build_edge(const Integrand *what)
+{
+	const Dump silent = { NULL, NULL };
+	return dumped_edge(what, &silent);
+}
+
+static void worsen(Bound *worst, Bound bound)
+{
+	worst->k = bound.k > worst->k ? bound.k : worst->k;
+	worst->repeat = bound.repeat > worst->repeat ? bound.repeat : worst->repeat;
+}
+
+/* `moments` is the degree of a family of all moments, or -1 for one integrand. */
+static void build_ring(Ring *ring, const Integral *want, int moments, const Dump *dump)
+{
+	Dag *dag = scheme_ring(want, moments);
+	dump_dag(dump, 'd', ring->name, dag);
+	prove_dag(dag, want, ring->outputs, "scheme");
+	Dag *fused = fuse(dag);
+	dump_dag(dump, 'f', ring->name, fused);
+	prove_dag(fused, want, ring->outputs, "fuse");
+	ring->portable = scheduled(dump, ring->name, "portable", dag, want, ring->outputs);
+	ring->fused = scheduled(dump, ring->name, "fma", fused, want, ring->outputs);
+	ring->finish = schedule(scheme_finish(dag));
+	prove_finish(&ring->finish, dag);
+	ring->bound = bound_ring(dag, want, ring->outputs);
+	for (int j = 0; j < ring->outputs; ++j)
+		worsen(&ring->worst, ring->bound[j]);
+	ring->accumulators = dag->outs;
+	ring->window = dag->window;
+	ring->scheme = dag->scheme;
+}
+
+static Ring *next_ring(Kernels *kernels, const char *name, const char *family, int m, int n, int outputs)
+{
+	Ring *ring = &kernels->ring[kernels->rings++];
+	*ring = (Ring){ .name = name, .family = family, .m = m, .n = n, .outputs = outputs };
+	return ring;
+}
+
+static void build_moments(Kernels *all, int degree, const Dump *dump)
+{
+	int outputs = (degree + 1) * (degree + 2) / 2, j = 0;
+	Integral *want = allocate((size_t)outputs * sizeof *want);
+	for (int d = 0; d <= degree; ++d)
+		for (int n = 0; n <= d; ++n)
+			want[j++] = green_line(poly_mono(rat(1, 1), mono_var(VAR_X, d - n) + mono_var(VAR_Y, n)));
+	Ring *ring = next_ring(all, format("moments_%d", degree), "moments", degree, 0, outputs);
+	build_ring(ring, want, degree, dump);
+}
+
+static void build_integrand(Kernels *all, const Integrand *what, const Dump *dump)
+{
+	Edge edge = dumped_edge(what, dump);
+	all->edge[all->edges++] = edge;
+	const char *family = what->m < 0 ? "polynomial" : "monomial";
+	build_ring(next_ring(all, what->name, family, what->m, what->n, 1), &edge.integral, -1, dump);
+}
+
+Kernels build_kernels(const Request *request, void (*progress)(int done, int of), const char *letters, Text *text)
+{
+	const Dump dump = { letters, text };
+	int edges = request->monomials + request->polynomials, rings = edges + request->moments + 1;
+	Kernels all = { allocate((size_t)edges * sizeof(Edge)), 0, allocate((size_t)rings * sizeof(Ring)), 0 };
+	for (int degree = 0; degree <= request->moments; ++degree) {
+		progress(all.rings, rings);
+		build_moments(&all, degree, &dump);
+	}
+	for (int i = 0; i < edges; ++i) {
+		progress(all.rings, rings);
+		build_integrand(&all, i < request->monomials ? &request->monomial[i]
+			: &request->polynomial[i - request->monomials], &dump);
+	}
+	progress(rings, rings);
+	return all;
+}

@@ -1,0 +1,296 @@
+/* main.c - options, and the pipeline as a list of calls. */
+#include "gen.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct {
+	Request request;
+	Delivery delivery;
+	const char *single_header, *manifest, *depfile, *show, *format, *dump;
+	const char *emission;                        /* an option given that only makes sense for an emission */
+	int families, runtime, list;
+} Options;
+
+static const char *const FAMILIES[] = { "moments" };
+static const char *const PRECISIONS[] = { "double", "float" };
+static const char *const TARGETS[] = { "portable", "fma" };
+
+static const char USAGE[] =
+	"usage: gen [OPTION]...\n"
+	"\n"
+	"Emits C code for exact integrals over regions, as sums over the edges of their boundaries.\n"
+	"\n"
+	"what to emit (nothing asked: the library with all moments to degree 4)\n"
+	"  --max-degree N         the library with all moments x^m y^n, m + n <= N (0..32)\n"
+	"  --families LIST        only these: moments\n"
+	"  --monomial xMyN        one monomial (repeatable)\n"
+	"  --polynomial NAME=EXPR a polynomial in x and y, such as soft='(1-x)*(1-y)' (repeatable)\n"
+	"  --precision LIST       double,float (default: both)\n"
+	"  --targets LIST         portable,fma (default: both; portable is always there)\n"
+	"  --prefix NAME          every symbol, macro and file name starts with NAME instead of ew, edgewise\n"
+	"where to\n"
+	"  --out DIR              folder to write, self-contained, `cc -c *.c` is enough (default: generated)\n"
+	"  --no-runtime           kernels and header only\n"
+	"  --single-header FILE   one file, stb style, instead of a folder\n"
+	"  --manifest FILE        machine-readable list of kernels, operation counts and error bounds (JSON)\n"
+	"  --depfile FILE         make-style dependencies, for CMake, Ninja and Meson\n"
+	"  --check                write nothing; exit 1 and a list if DIR differs from what would be written\n"
+	"  --dry-run              write nothing; list what would be written\n"
+	"other\n"
+	"  --show xMyN            the coefficient matrix of a monomial\n"
+	"  --format FORMAT        of --show: text, latex, json or c (default: text)\n"
+	"  -d LETTERS             dump after passes: p polynomials, d dag, f fused, s schedule; nothing is written\n"
+	"  --list                 families, targets, precisions and schemes\n"
+	"  --quiet, --verbose     say nothing, or name every file\n"
+	"  --help, --version\n"
+	"\n"
+	"Exit status: 0 done, 1 --check found a difference or output could not be written, 2 bad input.\n";
+
+/* ---- options ---- */
+
+static void set_once(const char **place, const char *option, const char *value)
+{
+	if (*place)
+		fatal(EXIT_USAGE, "%s is given twice", option);
+	if (!*value)
+		fatal(EXIT_USAGE, "%s needs a value that is not empty", option);
+	*place = value;
+}
+
+static void add_integrand(Integrand **list, int *count, Integrand integrand)
+{
+	Integrand *longer = allocate((size_t)(*count + 1) * sizeof *longer);
+	for (int i = 0; i < *count; ++i)
+		longer[i] = (*list)[i];
+	longer[(*count)++] = integrand;
+	*list = longer;
+}
+
+/* Options without a value; 0 if it is none of them. */
+static int read_switch(Options *o, const char *option)
+{
+	const struct { const char *name; int *place, value; } switches[] = {
+		{ "--no-runtime", &o->runtime, 0 }, { "--check", &o->delivery.check, 1 },
+		{ "--dry-run", &o->delivery.dry_run, 1 }, { "--quiet", &o->delivery.quiet, 1 },
+		{ "--verbose", &o->delivery.verbose, 1 }, { "--list", &o->list, 1 },
+	};
+	for (int i = 0; i < LENGTH(switches); ++i)
+		if (strcmp(option, switches[i].name) == 0) {
+			*switches[i].place = switches[i].value;
+			if (i < 3)
+				o->emission = switches[i].name;
+			return 1;
+		}
+	return 0;
+}
+
+/* Options with a text of their own. */
+static int read_text(Options *o, const char *option, const char *value)
+{
+	const struct { const char *name; const char **place; int emits; } texts[] = {
+		{ "--out", &o->delivery.out, 1 }, { "--single-header", &o->single_header, 1 },
+		{ "--manifest", &o->manifest, 1 }, { "--depfile", &o->depfile, 1 }, { "--prefix", &o->request.prefix, 1 },
+		{ "--show", &o->show, 0 }, { "--format", &o->format, 0 }, { "-d", &o->dump, 0 },
+	};
+	for (int i = 0; i < LENGTH(texts); ++i)
+		if (strcmp(option, texts[i].name) == 0) {
+			if (value)
+				set_once(texts[i].place, option, value);
+			if (texts[i].emits)
+				o->emission = texts[i].name;
+			return 1;
+		}
+	return 0;
+}
+
+/* Options with a grammar; with `value` NULL it only says whether the option is one of them. */
+static int read_request(Options *o, const char *option, const char *value)
+{
+	static const char *const names[] = { "--max-degree", "--families", "--monomial", "--polynomial", "--precision",
+		"--targets" };
+	Request *request = &o->request;
+	int which = 0;
+	while (which < LENGTH(names) && strcmp(option, names[which]) != 0)
+		++which;
+	if (which == LENGTH(names))
+		return 0;
+	if (!value)
+		return 1;
+	o->emission = names[which];
+	switch (which) {
+	case 0: request->moments = spec_degree(value); break;
+	case 1: spec_list(option, value, FAMILIES, LENGTH(FAMILIES)); o->families = 1; break;
+	case 2: add_integrand(&request->monomial, &request->monomials, spec_monomial(value)); break;
+	case 3: add_integrand(&request->polynomial, &request->polynomials, spec_polynomial(value)); break;
+	case 4: request->precisions = spec_list(option, value, PRECISIONS, LENGTH(PRECISIONS)); break;
+	case 5: request->targets = spec_list(option, value, TARGETS, LENGTH(TARGETS)); break;
+	}
+	return 1;
+}
+
+static void print_and_exit(const char *text)
+{
+	fputs(text, stdout);
+	if (fflush(stdout) != 0)
+		fatal(EXIT_DIFFERENT, "cannot write to standard output");
+	exit(EXIT_DONE);
+}
+
+static Options read_options(char **argv)
+{
+	Options o = { .request = { .moments = -1, .precisions = PRECISION_DOUBLE | PRECISION_FLOAT,
+		.targets = TARGET_PORTABLE | TARGET_FMA }, .runtime = 1 };
+	while (*++argv) {
+		const char *option = *argv, *equals = strncmp(option, "--", 2) == 0 ? strchr(option, '=') : NULL;
+		if (equals)
+			option = copy_string(option, (size_t)(equals - option));
+		if (strcmp(option, "--help") == 0)
+			print_and_exit(USAGE);
+		if (strcmp(option, "--version") == 0)
+			print_and_exit("gen " GEN_VERSION "\n");
+		int is_switch = read_switch(&o, option);
+		if (is_switch && equals)
+			fatal(EXIT_USAGE, "%s takes no value", option);
+		if (is_switch)
+			continue;
+		if (!read_text(&o, option, NULL) && !read_request(&o, option, NULL))
+			fatal(EXIT_USAGE, "unknown option '%s'; gen --help lists them", option);
+		const char *value = equals ? equals + 1 : *++argv;
+		if (!value)
+			fatal(EXIT_USAGE, "%s needs a value; gen --help shows which", option);
+		if (!read_text(&o, option, value))
+			read_request(&o, option, value);
+	}
+	return o;
+}
+
+static void check_options(const Options *o)
+{
+	if ((o->show || o->list) && o->emission)
+		fatal(EXIT_USAGE, "%s emits nothing; leave out %s", o->show ? "--show" : "--list", o->emission);
+	if (o->format && !o->show)
+		fatal(EXIT_USAGE, "--format goes with --show");
+	if (o->single_header && (!o->runtime || o->delivery.out))
+		fatal(EXIT_USAGE, "--single-header writes one file with the runtime in it; leave out %s",
+			o->runtime ? "--out" : "--no-runtime");
+	if (o->delivery.quiet && o->delivery.verbose)
+		fatal(EXIT_USAGE, "--quiet and --verbose exclude each other");
+	if (o->delivery.check && o->delivery.dry_run)
+		fatal(EXIT_USAGE, "--check and --dry-run exclude each other");
+	if (o->dump && strspn(o->dump, "pdfs") != strlen(o->dump))
+		fatal(EXIT_USAGE, "-d: '%s' has a letter other than p, d, f, s", o->dump);
+	if (o->request.prefix)
+		spec_prefix(o->request.prefix);
+}
+
+/* ---- pipeline ---- */
+
+static void show_progress(int done, int of)
+{
+	if (done < of)
+		fprintf(stderr, "\rgen: kernel %d of %d", done + 1, of);
+	else
+		fprintf(stderr, "\r%40s\r", "");
+}
+
+static void no_progress(int done, int of)
+{
+	(void)done;
+	(void)of;
+}
+
+static void print_text(const Text *text)
+{
+	if (fwrite(text->data, 1, text->size, stdout) != text->size || fflush(stdout) != 0)
+		fatal(EXIT_DIFFERENT, "cannot write to standard output");
+}
+
+static void print_words(const char *title, const char *const *words, int count)
+{
+	printf("%s:", title);
+	for (int i = 0; i < count; ++i)
+		printf(" %s", words[i]);
+	printf("\n");
+}
+
+static void print_list(void)
+{
+	int schemes = 0;
+	while (scheme_names()[schemes])
+		++schemes;
+	print_words("families", FAMILIES, LENGTH(FAMILIES));
+	print_words("targets", TARGETS, LENGTH(TARGETS));
+	print_words("precisions", PRECISIONS, LENGTH(PRECISIONS));
+	print_words("schemes", scheme_names(), schemes);
+}
+
+static void add_file(Files *files, const char *name, Text text)
+{
+	*file_new(files, name) = text;
+}
+
+static int emit(const Options *o)
+{
+	const Request *request = &o->request;
+	Text dump = { 0 };
+	int quiet = o->delivery.quiet || !isatty(STDERR_FILENO);
+	Kernels kernels = build_kernels(request, quiet ? no_progress : show_progress, o->dump, &dump);
+	if (o->dump) {
+		print_text(&dump);
+		return EXIT_DONE;
+	}
+	Files files = { 0 }, single = { 0 }, outputs = { 0 };
+	emit_header(&files, request, &kernels);
+	emit_list(&files, request, &kernels);
+	emit_edges(&files, request, &kernels);
+	emit_rings(&files, request, &kernels);
+	if (o->runtime)
+		bundle_runtime(&files);
+	bundle_rename(&files, request->prefix);
+	Text manifest = bundle_manifest(&files, request, &kernels);
+	Delivery how = o->delivery;
+	how.manifest = bundle_name("edgewise_manifest.json", request->prefix);
+	if (o->single_header) {
+		add_file(&single, o->single_header, bundle_single_header(&files, request));
+		file_new(&outputs, o->single_header);
+	} else {
+		how.out = how.out ? how.out : "generated";
+		add_file(&files, how.manifest, manifest);
+		for (int i = 0; i < files.count; ++i)
+			file_new(&outputs, format("%s/%s", how.out, files.file[i].name));
+	}
+	if (o->manifest)
+		add_file(&single, o->manifest, manifest);
+	if (o->depfile)
+		add_file(&single, o->depfile, bundle_depfile(&outputs));
+	return deliver(&files, &single, &how);
+}
+
+int main(int argc, char **argv)
+{
+	(void)argc;
+	Options o = read_options(argv);
+	check_options(&o);
+	if (o.show) {
+		Text text = { 0 };
+		Integrand monomial = spec_monomial(o.show);
+		emit_show(&text, &monomial, o.format ? o.format : "text");
+		print_text(&text);
+		return EXIT_DONE;
+	}
+	int status = EXIT_DONE;
+	if (o.list) {
+		print_list();
+	} else {
+		if (o.families && o.request.moments < 0)
+			o.request.moments = 4;
+		spec_complete(&o.request);
+		status = emit(&o);
+	}
+	if (fflush(stdout) != 0 || ferror(stdout))
+		fatal(EXIT_DIFFERENT, "cannot write to standard output");
+	return status;
+}

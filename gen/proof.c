@@ -1,0 +1,250 @@
+/* proof.c - the always-on checks, and the error bound.
+ *
+ * After scheme, after fuse and after schedule every output is expanded back into a polynomial over Q and compared
+ * with what green.c says. A difference is a bug of ours: abort before any file is written. For rings the identity is
+ * checked through the accumulators: output k must be accumulator k plus some polynomial v_k, and the finish forms
+ * applied to v must give each moment of one edge. The vertex form differs from the edge form by terms that cancel
+ * around any ring; the proof exhibits them: D(p0,p1,p2) = G(p1,p2) - G(p0,p1) with G read off D itself.
+ *
+ * The bound counts roundings along every path (numerics of summed products, e.g. Higham 2002, ch. 3): a node is the
+ * sum S of its terms with every sign positive, and E, the same terms each times the number of roundings it has been
+ * through. With W the positive terms of the exact polynomial, |computed - exact| <= gamma_k W for
+ * k = max(E / W over all monomials, longest path). Multiplying by a power of two does not round. */
+#include "gen.h"
+
+static void disprove(const char *pass, int output, Poly have, Poly want)
+{
+	bug("the proof failed after %s: output %d\n  is        %s\n  should be %s", pass, output,
+		poly_text(have), poly_text(want));
+}
+
+/* v_k of every output: its polynomial less accumulator k, of which no trace may remain. */
+static Poly *accumulated(const Poly *poly, const Dag *dag, const char *pass)
+{
+	Poly *value = allocate((size_t)dag->outs * sizeof *value);
+	for (int k = 0; k < dag->outs; ++k) {
+		value[k] = poly[dag->out[k]];
+		if (!dag->finishes)
+			continue;
+		value[k] = poly_sub(value[k], poly_mono(rat(1, 1), mono_accumulator(k)));
+		for (int i = 0; i < value[k].count; ++i)
+			if (mono_accumulator_of(value[k].term[i].mono) >= 0)
+				bug("after %s accumulator %d is not a plain sum", pass, k);
+	}
+	return value;
+}
+
+static Poly finished(Poly form, const Poly *value)
+{
+	Poly sum = poly_zero();
+	for (int i = 0; i < form.count; ++i)
+		sum = poly_add(sum, poly_scale(value[mono_accumulator_of(form.term[i].mono)], form.term[i].coef));
+	return sum;
+}
+
+static Poly rename_vertices(Poly a, int from, int to)
+{
+	const int vars[] = { VAR_X0 + 2 * from, VAR_Y0 + 2 * from };
+	const Poly by[] = { poly_var(VAR_X0 + 2 * to), poly_var(VAR_Y0 + 2 * to) };
+	return poly_substitute(a, vars, by, 2);
+}
+
+static Poly at_origin(Poly a, int vertex)
+{
+	const int vars[] = { VAR_X0 + 2 * vertex, VAR_Y0 + 2 * vertex };
+	const Poly by[] = { poly_zero(), poly_zero() };
+	return poly_substitute(a, vars, by, 2);
+}
+
+/* Does the sum of D(p0,p1,p2) vanish around every ring? D = G(p1,p2) - G(p0,p1) + k(p1) - k(p0). */
+static int telescopes(Poly d)
+{
+	Poly g = at_origin(d, 0);
+	Poly before = rename_vertices(rename_vertices(g, 1, 0), 2, 1);
+	Poly rest = poly_sub(d, poly_sub(g, before));
+	Poly k = at_origin(rest, 0);
+	return poly_equal(rest, poly_sub(k, rename_vertices(k, 1, 0)));
+}
+
+static void prove(const Poly *poly, const Dag *dag, const Integral *want, int count, const char *pass)
+{
+	Poly *value = accumulated(poly, dag, pass);
+	if ((dag->finishes ? dag->finishes : dag->outs) != count)
+		bug("after %s there are %d outputs for %d integrands", pass, dag->outs, count);
+	for (int j = 0; j < count; ++j) {
+		Poly have = dag->finishes ? finished(dag->finish[j], value) : value[j];
+		if (dag->window == 2 && !poly_equal(have, want[j].value))
+			disprove(pass, j, have, want[j].value);
+		if (dag->window == 3) {
+			Poly edge = rename_vertices(rename_vertices(want[j].value, 1, 2), 0, 1);
+			if (!telescopes(poly_sub(have, edge)))
+				disprove(pass, j, have, edge);
+		}
+	}
+}
+
+void prove_dag(const Dag *dag, const Integral *want, int count, const char *pass)
+{
+	Mark mark = arena_mark();
+	prove(dag_expand(dag), dag, want, count, pass);
+	arena_release(mark);
+}
+
+/* The program is run symbolically: an operand must have been computed, and must not be used after its last use. */
+void prove_program(const Program *program, const Integral *want, int count)
+{
+	Mark mark = arena_mark();
+	const Dag *dag = program->dag;
+	Poly *poly = allocate((size_t)dag->count * sizeof *poly);
+	unsigned char *ready = allocate((size_t)dag->count);
+	for (int i = 0; i < dag->count; ++i)
+		if (op_operands(dag->node[i].op) == 0) {
+			poly[i] = dag_expand_node(&dag->node[i], poly);
+			ready[i] = 1;
+		}
+	for (int at = 0; at < program->count; ++at) {
+		Ref ref = program->order[at];
+		const Node *node = &dag->node[ref];
+		for (int k = 0; k < op_operands(node->op); ++k)
+			if (!ready[node->arg[k]] || program->last[node->arg[k]] < at)
+				bug("after schedule step %d uses a value that is not there", at);
+		poly[ref] = dag_expand_node(node, poly);
+		ready[ref] = 1;
+	}
+	for (int k = 0; k < dag->outs; ++k)
+		if (!ready[dag->out[k]])
+			bug("after schedule output %d is never computed", k);
+	prove(poly, dag, want, count, "schedule");
+	arena_release(mark);
+}
+
+void prove_finish(const Program *finish, const Dag *ring)
+{
+	Mark mark = arena_mark();
+	const Poly *poly = dag_expand(finish->dag);
+	for (int j = 0; j < ring->finishes; ++j)
+		if (!poly_equal(poly[finish->dag->out[j]], ring->finish[j]))
+			disprove("finish", j, poly[finish->dag->out[j]], ring->finish[j]);
+	arena_release(mark);
+}
+
+/* ---- the error bound ---- */
+
+typedef struct { Poly s, e; int depth; } Weight;      /* terms with positive sign; times roundings; longest path */
+
+static Weight rounded(Poly s, Poly e, int depth)
+{
+	return (Weight){ s, poly_add(e, s), depth + 1 };
+}
+
+static Weight product(Weight a, Weight b)
+{
+	Poly e = poly_add(poly_mul(a.e, b.s), poly_mul(a.s, b.e));
+	return (Weight){ poly_mul(a.s, b.s), e, a.depth + b.depth };
+}
+
+static int is_power_of_two(const Node *node)
+{
+	return node->op == OP_CONST && rat_significant(node->value) == 1;
+}
+
+static Weight constant(Rat value)
+{
+	enum { EXACT_BITS = 24 };                     /* exact in float is exact in double */
+	int bits = rat_significant(value), exact = bits > 0 && bits <= EXACT_BITS;
+	Weight weight = { poly_const(rat_abs(value)), poly_zero(), 0 };
+	return exact ? weight : rounded(weight.s, weight.e, 0);
+}
+
+static Weight weigh(const Dag *dag, const Node *node, const Weight *done, const Weight *inputs)
+{
+	if (node->op == OP_CONST)
+		return constant(node->value);
+	if (node->op == OP_INPUT) {
+		int accumulator = mono_accumulator_of(node->input);
+		if (inputs && accumulator >= 0)
+			return inputs[accumulator];
+		return (Weight){ poly_mono(rat(1, 1), node->input), poly_zero(), 0 };
+	}
+	Weight a = done[node->arg[0]], b = done[node->arg[1]];
+	if (node->op == OP_MUL) {
+		Weight p = product(a, b);
+		if (is_power_of_two(&dag->node[node->arg[0]]) || is_power_of_two(&dag->node[node->arg[1]]))
+			return p;
+		return rounded(p.s, p.e, p.depth);
+	}
+	if (node->op != OP_ADD && node->op != OP_SUB) {
+		a = product(a, b);
+		b = done[node->arg[2]];
+	}
+	return rounded(poly_add(a.s, b.s), poly_add(a.e, b.e), a.depth > b.depth ? a.depth : b.depth);
+}
+
+static Weight *weights(const Dag *dag, const Weight *inputs)
+{
+	const int *uses = dag_uses(dag);
+	Weight *weight = allocate((size_t)dag->count * sizeof *weight);
+	for (int i = 0; i < dag->count; ++i)
+		if (uses[i])
+			weight[i] = weigh(dag, &dag->node[i], weight, inputs);
+	return weight;
+}
+
+/* Smallest k with E <= k W in every monomial. */
+static int ratio(Weight weight, Poly magnitude)
+{
+	Rat worst = { weight.depth, 1 };
+	for (int i = 0, j = 0; i < weight.e.count; ++i) {
+		while (j < magnitude.count && magnitude.term[j].mono > weight.e.term[i].mono)
+			++j;
+		if (j == magnitude.count || magnitude.term[j].mono != weight.e.term[i].mono)
+			bug("a term of the error bound has no counterpart in the exact sum");
+		Rat here = rat_div(weight.e.term[i].coef, magnitude.term[j].coef);
+		if (rat_compare(here, worst) > 0)
+			worst = here;
+	}
+	return (int)rat_ceil(worst);
+}
+
+Bound bound_edge(const Dag *dag, const Integral *want)
+{
+	Mark mark = arena_mark();
+	Weight weight = weights(dag, NULL)[dag->out[0]];
+	Bound bound = { ratio(weight, want->magnitude), 0 };
+	arena_release(mark);
+	return bound;
+}
+
+/* Weight of v_k, and in *repeat how often an item rounds what is already in accumulator k. */
+static Weight without_accumulator(Weight weight, int k, int *repeat)
+{
+	const Mono own = mono_accumulator(k);
+	for (int i = 0; i < weight.e.count; ++i)
+		if (weight.e.term[i].mono == own)
+			*repeat = (int)weight.e.term[i].coef.num;
+	return (Weight){ poly_sub(weight.s, poly_mono(rat(1, 1), own)),
+		poly_sub(weight.e, poly_mono(rat(*repeat, 1), own)), weight.depth };
+}
+
+Bound *bound_ring(const Dag *dag, const Integral *want, int count)
+{
+	Bound *bound = allocate((size_t)count * sizeof *bound);
+	Mark mark = arena_mark();
+	const Weight *weight = weights(dag, NULL);
+	Weight *value = allocate((size_t)dag->outs * sizeof *value);
+	int *repeat = allocate((size_t)dag->outs * sizeof *repeat);
+	for (int k = 0; k < dag->outs; ++k)
+		value[k] = without_accumulator(weight[dag->out[k]], k, &repeat[k]);
+	const Dag *finish = scheme_finish(dag);
+	const Weight *result = weights(finish, value);
+	for (int j = 0; j < count; ++j) {
+		Weight final = result[finish->out[j]];
+		bound[j].k = ratio(final, dag->window == 2 ? want[j].magnitude : final.s);
+		for (int i = 0; i < dag->finish[j].count; ++i) {
+			int again = repeat[mono_accumulator_of(dag->finish[j].term[i].mono)];
+			bound[j].repeat = again > bound[j].repeat ? again : bound[j].repeat;
+		}
+	}
+	arena_release(mark);
+	return bound;
+}
