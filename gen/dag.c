@@ -168,17 +168,6 @@ Ref dag_scale(Dag *dag, Rat factor, Ref a)
 	return dag_mul(dag, dag_const(dag, factor), a);
 }
 
-/* a^power from the two halves, so that all powers of one node share their products. */
-Ref dag_power(Dag *dag, Ref a, int power)
-{
-	if (power == 0)
-		return dag_const(dag, rat(1, 1));
-	if (power == 1)
-		return a;
-	Ref half = dag_power(dag, a, power / 2), rest = dag_power(dag, a, power - power / 2);
-	return dag_mul(dag, half, rest);
-}
-
 Ref dag_name(Dag *dag, Ref a, const char *name)
 {
 	Node *node = &dag->node[a];

@@ -52,13 +52,18 @@ typedef struct {
 
 static int is_taken(const Printer *printer, int count, const char *name)
 {
-	for (int var = 0; var < VARS; ++var)
-		if (strcmp(var_name(var), name) == 0)
-			return 1;
 	for (int i = 0; i < count; ++i)
 		if (printer->name[i] && strcmp(printer->name[i], name) == 0)
 			return 1;
 	return 0;
+}
+
+static int output_of(const Dag *dag, Ref ref)
+{
+	for (int k = 0; k < dag->outs; ++k)
+		if (dag->out[k] == ref)
+			return k;
+	return -1;
 }
 
 static int is_inline(const Printer *printer, Ref ref)
@@ -84,7 +89,7 @@ static void name_values(Printer *printer)
 	for (int at = 0; at < program->count; ++at) {
 		Ref ref = program->order[at];
 		const char *name = dag->node[ref].name;
-		if (is_inline(printer, ref))
+		if (is_inline(printer, ref) || output_of(dag, ref) >= 0)
 			continue;
 		if (!name || is_taken(printer, dag->count, name))
 			name = format("t%d", temporaries++);
@@ -105,6 +110,18 @@ static char *operand(const Printer *printer, Ref ref, int parent)
 	return format("(%s)", text);
 }
 
+/* Constants first, then x0 y1 rather than y1 x0; addition and multiplication commute bit for bit. */
+static int reads_better_swapped(const Printer *printer, const Node *node)
+{
+	if (op_operands(node->op) < 2 || node->op == OP_SUB)
+		return 0;
+	const Node *a = &printer->program->dag->node[node->arg[0]], *b = &printer->program->dag->node[node->arg[1]];
+	if (a->op == OP_CONST || b->op == OP_CONST)
+		return b->op == OP_CONST;
+	const char *left = printer->name[node->arg[0]], *right = printer->name[node->arg[1]];
+	return left && right && (a->op == OP_INPUT || b->op == OP_INPUT) && strcmp(left, right) > 0;
+}
+
 static char *expression(const Printer *printer, Ref ref, int top)
 {
 	const Node *node = &printer->program->dag->node[ref];
@@ -114,8 +131,8 @@ static char *expression(const Printer *printer, Ref ref, int top)
 		return copy_string(printer->name[ref], strlen(printer->name[ref]));
 	if (node->op == OP_CONST)
 		return rat_literal(node->value, printer->style->precision->is_float);
-	if (node->op == OP_MUL && printer->program->dag->node[arg[1]].op == OP_CONST) {
-		arg[0] = node->arg[1];               /* constants first; multiplication commutes */
+	if (reads_better_swapped(printer, node)) {
+		arg[0] = node->arg[1];
 		arg[1] = node->arg[0];
 	}
 	Text text = { 0 };
@@ -132,31 +149,27 @@ static char *expression(const Printer *printer, Ref ref, int top)
 	return copy;
 }
 
-/* A statement, broken before an operator where it would be too wide. */
+/* Where to break a statement that is too wide: before its last sum that fits, else before its last product. */
+static int break_at(const char *statement, int room)
+{
+	static const char *const operators[] = { "+-", "*" };
+	for (int kind = 0; kind < LENGTH(operators); ++kind)
+		for (int cut = room - 1; cut > 0; --cut)
+			if (statement[cut] == ' ' && strchr(operators[kind], statement[cut + 1]) && statement[cut + 2] == ' ')
+				return cut;
+	return 0;
+}
+
 static void add_statement(Text *text, int indent, const char *statement)
 {
-	int room = WIDTH - TAB * indent;
+	int room = WIDTH - TAB * indent, cut;
 	text_add(text, "%.*s", indent, "\t\t\t\t");
-	while ((int)strlen(statement) > room) {
-		int cut = room - 1;
-		while (cut > 0 && !(statement[cut] == ' ' && strchr("+-*", statement[cut + 1])
-				&& statement[cut + 2] == ' '))
-			--cut;
-		if (cut == 0)
-			break;
+	while ((int)strlen(statement) > room && (cut = break_at(statement, room)) > 0) {
 		text_add(text, "%.*s\n%.*s", cut, statement, indent + 1, "\t\t\t\t\t");
 		statement += cut + 1;
 		room = WIDTH - TAB * (indent + 1);
 	}
 	text_add(text, "%s\n", statement);
-}
-
-static int output_of(const Dag *dag, Ref ref)
-{
-	for (int k = 0; k < dag->outs; ++k)
-		if (dag->out[k] == ref)
-			return k;
-	return -1;
 }
 
 void emit_program(Text *text, const Program *program, const Style *style)

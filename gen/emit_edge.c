@@ -72,8 +72,8 @@ static void add_formula(Text *text, const Edge *edge, const char *margin)
 		return;
 	}
 	Matrix matrix = matrix_of(edge);
-	text_add(text, "%s    %s (x0 y1 - x1 y0) times the sum of row times column times\n%s\n", margin,
-		rat_text(matrix.factor), margin);
+	text_add(text, "%s    %s (x0 y1 - x1 y0) times the sum of row times column times\n%.*s\n", margin,
+		rat_text(matrix.factor), (int)strlen(margin) - (*margin != 0), margin);
 	add_table(text, &matrix, margin);
 }
 

@@ -36,6 +36,11 @@ static void add_loads(Text *text, const Ring *ring, const char *real)
 			text_add(text, "\t\t\tconst %s %s = %s;\n", real, loads[i].name, loads[i].value);
 }
 
+static char *lane_sum(int accumulator, const Precision *precision)
+{
+	return accumulator ? format("sum[%d + lane]", accumulator * precision->lanes) : format("sum[lane]");
+}
+
 static void add_kernel(Text *text, const Ring *ring, const Target *target, const Precision *precision)
 {
 	const Program *program = target->fused ? &ring->fused : &ring->portable;
@@ -50,13 +55,13 @@ static void add_kernel(Text *text, const Ring *ring, const Target *target, const
 	text_add(text, "\n{\n%s", ring->window == 2 ? "\t(void)cx;\n" : "");
 	text_add(text, "\tfor (size_t lane = 0; lane < %d && lane < count; ++lane) {\n", precision->lanes);
 	for (int k = 0; k < ring->accumulators; ++k)
-		text_add(text, "\t\t%s acc%d = sum[%d + lane];\n", precision->real, k, k * precision->lanes);
+		text_add(text, "\t\t%s acc%d = %s;\n", precision->real, k, lane_sum(k, precision));
 	text_add(text, "\t\tfor (size_t i = lane; i < count; i += %d) {\n", precision->lanes);
 	add_loads(text, ring, precision->real);
 	emit_program(text, program, &style);
 	text_add(text, "\t\t}\n");
 	for (int k = 0; k < ring->accumulators; ++k)
-		text_add(text, "\t\tsum[%d + lane] = acc%d;\n", k * precision->lanes, k);
+		text_add(text, "\t\t%s = acc%d;\n", lane_sum(k, precision), k);
 	text_add(text, "\t}\n}\n");
 }
 

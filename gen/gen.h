@@ -178,7 +178,6 @@ Ref  dag_add(Dag *dag, Ref a, Ref b);                /* the smart constructors d
 Ref  dag_sub(Dag *dag, Ref a, Ref b);
 Ref  dag_mul(Dag *dag, Ref a, Ref b);
 Ref  dag_scale(Dag *dag, Rat factor, Ref a);
-Ref  dag_power(Dag *dag, Ref a, int power);
 Ref  dag_name(Dag *dag, Ref a, const char *name);    /* the first name given stays; returns a */
 void dag_out(Dag *dag, Ref root);
 void dag_accumulate(Dag *dag, Ref value);            /* next accumulator += value */

@@ -99,17 +99,6 @@ static Ring *next_ring(Kernels *kernels, const char *name, const char *family, i
 	return ring;
 }
 
-static void build_moments(Kernels *all, int degree, const Dump *dump)
-{
-	int outputs = (degree + 1) * (degree + 2) / 2, j = 0;
-	Integral *want = allocate((size_t)outputs * sizeof *want);
-	for (int d = 0; d <= degree; ++d)
-		for (int n = 0; n <= d; ++n)
-			want[j++] = green_line(poly_mono(rat(1, 1), mono_var(VAR_X, d - n) + mono_var(VAR_Y, n)));
-	Ring *ring = next_ring(all, format("moments_%d", degree), "moments", degree, 0, outputs);
-	build_ring(ring, want, degree, dump);
-}
-
 static void build_integrand(Kernels *all, const Integrand *what, const Dump *dump)
 {
 	Edge edge = dumped_edge(what, dump);
@@ -118,14 +107,27 @@ static void build_integrand(Kernels *all, const Integrand *what, const Dump *dum
 	build_ring(next_ring(all, what->name, family, what->m, what->n, 1), &edge.integral, -1, dump);
 }
 
+/* Moments come in the order of EW_INDEX, so those of a lower degree are the first of those of a higher one. */
+static Integral *all_integrals(const Request *request)
+{
+	int count = (request->moments + 1) * (request->moments + 2) / 2;
+	Integral *want = allocate((size_t)(count + 1) * sizeof *want);
+	for (int i = 0; i < count && request->moments >= 0; ++i)
+		want[i] = green_line(request->monomial[i].integrand);
+	return want;
+}
+
 Kernels build_kernels(const Request *request, void (*progress)(int done, int of), const char *letters, Text *text)
 {
 	const Dump dump = { letters, text };
 	int edges = request->monomials + request->polynomials, rings = edges + request->moments + 1;
 	Kernels all = { allocate((size_t)edges * sizeof(Edge)), 0, allocate((size_t)rings * sizeof(Ring)), 0 };
+	const Integral *want = all_integrals(request);
 	for (int degree = 0; degree <= request->moments; ++degree) {
 		progress(all.rings, rings);
-		build_moments(&all, degree, &dump);
+		int outputs = (degree + 1) * (degree + 2) / 2;
+		Ring *ring = next_ring(&all, format("moments_%d", degree), "moments", degree, 0, outputs);
+		build_ring(ring, want, degree, &dump);
 	}
 	for (int i = 0; i < edges; ++i) {
 		progress(all.rings, rings);

@@ -182,8 +182,23 @@ Poly poly_abs(Poly a)
 	return result;
 }
 
+/* Frees what was allocated since the mark, but for this polynomial. */
+static Poly keep_only(Mark mark, Poly a)
+{
+	Text copy = { 0 };
+	if (a.count)
+		text_append(&copy, (const char *)a.term, (size_t)a.count * sizeof(Term));
+	arena_release(mark);
+	Poly kept = { a.count, allocate((size_t)a.count * sizeof(Term)) };
+	if (a.count)
+		memcpy(kept.term, copy.data, copy.size);
+	text_free(&copy);
+	return kept;
+}
+
 Poly poly_substitute(Poly a, const int *vars, const Poly *by, int count)
 {
+	Mark mark = arena_mark();
 	Poly sum = poly_zero();
 	for (int i = 0; i < a.count; ++i) {
 		Mono rest = a.term[i].mono;
@@ -193,7 +208,7 @@ Poly poly_substitute(Poly a, const int *vars, const Poly *by, int count)
 			rest -= mono_var(vars[v], power);
 			product = poly_mul(product, poly_pow(by[v], power));
 		}
-		sum = poly_add(sum, poly_mul(product, poly_mono(rat(1, 1), rest)));
+		sum = keep_only(mark, poly_add(sum, poly_mul(product, poly_mono(rat(1, 1), rest))));
 	}
 	return sum;
 }

@@ -177,10 +177,24 @@ static Int round_to(int bits, Int num, Int den, int *exponent)
 	return whole;
 }
 
+/* 15.0, 0.5, -0.0625: a dyadic rational with few digits, exactly. */
+static char *short_decimal(Rat a)
+{
+	Int rest = magnitude(a.num) % a.den;
+	char *text = format("%s%s.", a.num < 0 ? "-" : "", int_text(magnitude(a.num) / a.den));
+	do {
+		text = format("%s%d", text, (int)(10 * rest / a.den));
+		rest = 10 * rest % a.den;
+	} while (rest);
+	return text;
+}
+
 char *rat_literal(Rat a, int is_float)
 {
 	const char *suffix = is_float ? "f" : "";
 	int bits = is_float ? 24 : 53, exponent = 0;
+	if (magnitude(a.num) < (Int)1 << 20 && a.den <= 64 && !(a.den & (a.den - 1)))
+		return format("%s%s", short_decimal(a), suffix);
 	if (a.den == 1 && magnitude(a.num) < (Int)1 << bits)
 		return format("%s.0%s", int_text(a.num), suffix);
 	Int digits = round_to(bits, magnitude(a.num), a.den, &exponent);

@@ -83,19 +83,30 @@ static const char *power_name(char axis, int i, int j)
 	return i + j > 4 ? format("%c%d_%d", axis, i, j) : format("%c%.*s%.*s", axis, i, "0000", j, "1111");
 }
 
-/* p^i q^j as (p q)^min times the power that is left: mirrored exponents give mirrored operations. */
-static Ref product_of_powers(Dag *dag, Ref p, int i, Ref q, int j)
+/* base^power from its halves, so that all powers share products; base is p0^i p1^j of an axis that has names, or 0. */
+static Ref power_of(Dag *dag, Ref base, int power, char axis, int i, int j)
 {
-	int common = i < j ? i : j;
-	Ref both = common ? dag_power(dag, dag_mul(dag, p, q), common) : dag_const(dag, rat(1, 1));
-	return dag_mul(dag, both, i > j ? dag_power(dag, p, i - j) : dag_power(dag, q, j - i));
+	if (power == 0)
+		return dag_const(dag, rat(1, 1));
+	Ref result = base;
+	if (power > 1) {
+		Ref half = power_of(dag, base, power / 2, axis, i, j);
+		Ref rest = power_of(dag, base, power - power / 2, axis, i, j);
+		result = dag_mul(dag, half, rest);
+	}
+	return axis ? dag_name(dag, result, power_name(axis, power * i, power * j)) : result;
 }
 
+/* p0^i p1^j as (p0 p1)^min times the power that is left: mirrored exponents give mirrored operations. */
 static Ref axis_part(Dag *dag, const Leaves *leaves, Mono mono, const int *vars, char axis)
 {
-	int i = mono_power(mono, vars[0]), j = mono_power(mono, vars[1]);
-	Ref ref = product_of_powers(dag, leaves->ref[vars[0]], i, leaves->ref[vars[1]], j);
-	return axis ? dag_name(dag, ref, power_name(axis, i, j)) : ref;
+	int i = mono_power(mono, vars[0]), j = mono_power(mono, vars[1]), common = i < j ? i : j;
+	Ref p = leaves->ref[vars[0]], q = leaves->ref[vars[1]], both = dag_const(dag, rat(1, 1));
+	if (common)
+		both = power_of(dag, dag_mul(dag, p, q), common, axis, 1, 1);
+	Ref left = i > j ? power_of(dag, p, i - j, axis, 1, 0) : power_of(dag, q, j - i, axis, 0, 1);
+	Ref result = dag_mul(dag, both, left);
+	return axis ? dag_name(dag, result, power_name(axis, i, j)) : result;
 }
 
 static Ref mono_ref(Dag *dag, const Leaves *leaves, Mono mono)
@@ -174,6 +185,18 @@ static Poly group_by(Poly a, const int *vars)
 	return sorted;
 }
 
+static const char *row_name(Poly sorted, Mono x)
+{
+	int index = -1;
+	for (int from = 0; from < sorted.count; ) {
+		Poly part = next_group(sorted, &from, X_VARS);
+		++index;
+		if (mono_keep(part.term[0].mono, X_VARS, 2) == x)
+			break;
+	}
+	return format("row%d", index);
+}
+
 Dag *scheme_edge(const Integral *want)
 {
 	Dag *dag = dag_new("matrix");
@@ -181,17 +204,16 @@ Dag *scheme_edge(const Integral *want)
 	Rat content = poly_content(want->density);
 	Poly density = group_by(poly_scale(want->density, rat_div(rat(1, 1), content)), X_VARS);
 	Ref sum = NONE;
-	int rows = 0;
 	for (int from = 0; from < density.count; ) {
 		Poly part = next_group(density, &from, X_VARS);
 		Mono x = mono_keep(part.term[0].mono, X_VARS, 2), image = mono_keep(mirrored(x), X_VARS, 2);
 		if (x < image)
 			continue;
 		Ref near = x == image ? own_row(dag, &end, part) : row(dag, &end, part, 0);
-		dag_name(dag, near, format("row%d", rows++));
+		dag_name(dag, near, row_name(density, x));
 		Ref term = dag_mul(dag, axis_part(dag, &end, x, X_VARS, 'x'), near);
 		if (x > image) {
-			Ref far = dag_name(dag, row(dag, &end, part, 1), format("row%d", rows++));
+			Ref far = dag_name(dag, row(dag, &end, part, 1), row_name(density, image));
 			term = dag_add(dag, term, dag_mul(dag, axis_part(dag, &end, image, X_VARS, 'x'), far));
 		}
 		sum = dag_add(dag, sum, term);

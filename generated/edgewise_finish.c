@@ -12,13 +12,13 @@
 /* area */
 void ew_ring_moments_0_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.0000000000000p-1 /* 1/2 */ * sum[0];
+	out[0] = 0.5 * sum[0];
 }
 
 /* all moments of x^m y^n, m + n <= 1 */
 void ew_ring_moments_1_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.0000000000000p-1 /* 1/2 */ * sum[0];
+	out[0] = 0.5 * sum[0];
 	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
 	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
 }
@@ -26,7 +26,7 @@ void ew_ring_moments_1_finish(const double *sum, double *out)
 /* all moments of x^m y^n, m + n <= 2 */
 void ew_ring_moments_2_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.0000000000000p-1 /* 1/2 */ * sum[0];
+	out[0] = 0.5 * sum[0];
 	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
 	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
 	out[3] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3];
@@ -37,85 +37,85 @@ void ew_ring_moments_2_finish(const double *sum, double *out)
 /* all moments of x^m y^n, m + n <= 3 */
 void ew_ring_moments_3_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.0000000000000p-1 /* 1/2 */ * sum[0];
+	out[0] = 0.5 * sum[0];
 	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
 	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
-	const double t3 = 3.0 * sum[3];
-	const double t4 = -2.0 * sum[4];
+	const double t0 = 3.0 * sum[3];
+	const double t1 = -2.0 * sum[4];
+	const double t2 = t0 + t1;
+	out[3] = 0x1.5555555555555p-6 /* 1/48 */ * t2;
+	const double t3 = 3.0 * sum[5];
+	const double t4 = -2.0 * sum[6];
 	const double t5 = t3 + t4;
-	out[3] = 0x1.5555555555555p-6 /* 1/48 */ * t5;
-	const double t7 = 3.0 * sum[5];
-	const double t8 = -2.0 * sum[6];
-	const double t9 = t7 + t8;
-	out[4] = 0x1.5555555555555p-6 /* 1/48 */ * t9;
-	const double t11 = 3.0 * sum[7];
-	const double t12 = -2.0 * sum[8];
-	const double t13 = t11 + t12;
-	out[5] = 0x1.5555555555555p-6 /* 1/48 */ * t13;
+	out[4] = 0x1.5555555555555p-6 /* 1/48 */ * t5;
+	const double t6 = 3.0 * sum[7];
+	const double t7 = -2.0 * sum[8];
+	const double t8 = t6 + t7;
+	out[5] = 0x1.5555555555555p-6 /* 1/48 */ * t8;
 	out[6] = 0x1.999999999999ap-6 /* 1/40 */ * sum[9];
-	const double t16 = 2.0 * sum[11];
-	const double t17 = sum[10] + t16;
-	out[7] = 0x1.1111111111111p-7 /* 1/120 */ * t17;
-	const double t19 = 2.0 * sum[12];
-	const double t20 = t19 + sum[13];
-	out[8] = 0x1.1111111111111p-7 /* 1/120 */ * t20;
+	const double t9 = 2.0 * sum[11];
+	const double t10 = sum[10] + t9;
+	out[7] = 0x1.1111111111111p-7 /* 1/120 */ * t10;
+	const double t11 = 2.0 * sum[12];
+	const double t12 = sum[13] + t11;
+	out[8] = 0x1.1111111111111p-7 /* 1/120 */ * t12;
 	out[9] = 0x1.999999999999ap-6 /* 1/40 */ * sum[14];
 }
 
 /* all moments of x^m y^n, m + n <= 4 */
 void ew_ring_moments_4_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.0000000000000p-1 /* 1/2 */ * sum[0];
+	out[0] = 0.5 * sum[0];
 	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
 	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
-	const double t3 = 3.0 * sum[3];
-	const double t4 = -2.0 * sum[4];
+	const double t0 = 3.0 * sum[3];
+	const double t1 = -2.0 * sum[4];
+	const double t2 = t0 + t1;
+	out[3] = 0x1.5555555555555p-6 /* 1/48 */ * t2;
+	const double t3 = 3.0 * sum[5];
+	const double t4 = -2.0 * sum[6];
 	const double t5 = t3 + t4;
-	out[3] = 0x1.5555555555555p-6 /* 1/48 */ * t5;
-	const double t7 = 3.0 * sum[5];
-	const double t8 = -2.0 * sum[6];
-	const double t9 = t7 + t8;
-	out[4] = 0x1.5555555555555p-6 /* 1/48 */ * t9;
-	const double t11 = 3.0 * sum[7];
-	const double t12 = -2.0 * sum[8];
-	const double t13 = t11 + t12;
-	out[5] = 0x1.5555555555555p-6 /* 1/48 */ * t13;
+	out[4] = 0x1.5555555555555p-6 /* 1/48 */ * t5;
+	const double t6 = 3.0 * sum[7];
+	const double t7 = -2.0 * sum[8];
+	const double t8 = t6 + t7;
+	out[5] = 0x1.5555555555555p-6 /* 1/48 */ * t8;
 	out[6] = 0x1.999999999999ap-6 /* 1/40 */ * sum[9];
-	const double t16 = 2.0 * sum[11];
-	const double t17 = sum[10] + t16;
-	out[7] = 0x1.1111111111111p-7 /* 1/120 */ * t17;
-	const double t19 = 2.0 * sum[12];
-	const double t20 = t19 + sum[13];
-	out[8] = 0x1.1111111111111p-7 /* 1/120 */ * t20;
+	const double t9 = 2.0 * sum[11];
+	const double t10 = sum[10] + t9;
+	out[7] = 0x1.1111111111111p-7 /* 1/120 */ * t10;
+	const double t11 = 2.0 * sum[12];
+	const double t12 = sum[13] + t11;
+	out[8] = 0x1.1111111111111p-7 /* 1/120 */ * t12;
 	out[9] = 0x1.999999999999ap-6 /* 1/40 */ * sum[14];
-	const double t23 = 5.0 * sum[15];
-	const double t24 = -4.0 * sum[21];
-	const double t25 = t23 + t24;
-	out[10] = 0x1.1111111111111p-9 /* 1/480 */ * t25;
-	const double t27 = 5.0 * sum[16];
-	const double t28 = -4.0 * sum[22];
+	const double t13 = 5.0 * sum[15];
+	const double t14 = -4.0 * sum[21];
+	const double t15 = t13 + t14;
+	out[10] = 0x1.1111111111111p-9 /* 1/480 */ * t15;
+	const double t16 = 5.0 * sum[16];
+	const double t17 = -4.0 * sum[22];
+	const double t18 = t16 + t17;
+	out[11] = 0x1.1111111111111p-9 /* 1/480 */ * t18;
+	const double t19 = 5.0 * sum[17];
+	const double t20 = 10.0 * sum[18];
+	const double t21 = t19 + t20;
+	const double t22 = -12.0 * sum[23];
+	const double t23 = t21 + t22;
+	out[12] = 0x1.6c16c16c16c17p-11 /* 1/1440 */ * t23;
+	const double t24 = 5.0 * sum[19];
+	const double t25 = -4.0 * sum[24];
+	const double t26 = t24 + t25;
+	out[13] = 0x1.1111111111111p-9 /* 1/480 */ * t26;
+	const double t27 = 5.0 * sum[20];
+	const double t28 = -4.0 * sum[25];
 	const double t29 = t27 + t28;
-	out[11] = 0x1.1111111111111p-9 /* 1/480 */ * t29;
-	const double t31 = 5.0 * sum[17];
-	const double t32 = 10.0 * sum[18];
-	const double t33 = t31 + t32;
-	const double t34 = -12.0 * sum[23];
-	const double t35 = t33 + t34;
-	out[12] = 0x1.6c16c16c16c17p-11 /* 1/1440 */ * t35;
-	const double t37 = 5.0 * sum[19];
-	const double t38 = -4.0 * sum[24];
-	const double t39 = t37 + t38;
-	out[13] = 0x1.1111111111111p-9 /* 1/480 */ * t39;
-	const double t41 = 5.0 * sum[20];
-	const double t42 = -4.0 * sum[25];
-	const double t43 = t41 + t42;
-	out[14] = 0x1.1111111111111p-9 /* 1/480 */ * t43;
+	out[14] = 0x1.1111111111111p-9 /* 1/480 */ * t29;
 }
 
 /* all moments of x^m y^n, m + n <= 5 */
 void ew_ring_moments_5_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.0000000000000p-1 /* 1/2 */ * sum[0];
+	out[0] = 0.5 * sum[0];
 	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
 	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
 	out[3] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3];
@@ -131,25 +131,25 @@ void ew_ring_moments_5_finish(const double *sum, double *out)
 	out[13] = 0x1.1111111111111p-7 /* 1/120 */ * sum[13];
 	out[14] = 0x1.1111111111111p-5 /* 1/30 */ * sum[14];
 	out[15] = 0x1.8618618618618p-6 /* 1/42 */ * sum[15];
-	const double t16 = 5.0 * sum[21];
-	const double t17 = sum[16] + t16;
-	out[16] = 0x1.3813813813814p-8 /* 1/210 */ * t17;
-	const double t19 = 10.0 * sum[22];
-	const double t20 = sum[17] + t19;
-	out[17] = 0x1.3813813813814p-9 /* 1/420 */ * t20;
-	const double t22 = 10.0 * sum[23];
-	const double t23 = sum[18] + t22;
-	out[18] = 0x1.3813813813814p-9 /* 1/420 */ * t23;
-	const double t25 = 5.0 * sum[24];
-	const double t26 = sum[19] + t25;
-	out[19] = 0x1.3813813813814p-8 /* 1/210 */ * t26;
+	const double t0 = 5.0 * sum[21];
+	const double t1 = sum[16] + t0;
+	out[16] = 0x1.3813813813814p-8 /* 1/210 */ * t1;
+	const double t2 = 10.0 * sum[22];
+	const double t3 = sum[17] + t2;
+	out[17] = 0x1.3813813813814p-9 /* 1/420 */ * t3;
+	const double t4 = 10.0 * sum[23];
+	const double t5 = sum[18] + t4;
+	out[18] = 0x1.3813813813814p-9 /* 1/420 */ * t5;
+	const double t6 = 5.0 * sum[24];
+	const double t7 = sum[19] + t6;
+	out[19] = 0x1.3813813813814p-8 /* 1/210 */ * t7;
 	out[20] = 0x1.8618618618618p-6 /* 1/42 */ * sum[20];
 }
 
 /* all moments of x^m y^n, m + n <= 6 */
 void ew_ring_moments_6_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.0000000000000p-1 /* 1/2 */ * sum[0];
+	out[0] = 0.5 * sum[0];
 	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
 	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
 	out[3] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3];
@@ -171,28 +171,28 @@ void ew_ring_moments_6_finish(const double *sum, double *out)
 	out[19] = 0x1.3813813813814p-8 /* 1/210 */ * sum[19];
 	out[20] = 0x1.8618618618618p-6 /* 1/42 */ * sum[20];
 	out[21] = 0x1.2492492492492p-6 /* 1/56 */ * sum[21];
-	const double t22 = 6.0 * sum[28];
-	const double t23 = sum[22] + t22;
-	out[22] = 0x1.8618618618618p-9 /* 1/336 */ * t23;
-	const double t25 = 15.0 * sum[29];
-	const double t26 = sum[23] + t25;
-	out[23] = 0x1.3813813813814p-10 /* 1/840 */ * t26;
-	const double t28 = 20.0 * sum[30];
-	const double t29 = sum[24] + t28;
-	out[24] = 0x1.d41d41d41d41dp-11 /* 1/1120 */ * t29;
-	const double t31 = 15.0 * sum[31];
-	const double t32 = sum[25] + t31;
-	out[25] = 0x1.3813813813814p-10 /* 1/840 */ * t32;
-	const double t34 = 6.0 * sum[32];
-	const double t35 = sum[26] + t34;
-	out[26] = 0x1.8618618618618p-9 /* 1/336 */ * t35;
+	const double t0 = 6.0 * sum[28];
+	const double t1 = sum[22] + t0;
+	out[22] = 0x1.8618618618618p-9 /* 1/336 */ * t1;
+	const double t2 = 15.0 * sum[29];
+	const double t3 = sum[23] + t2;
+	out[23] = 0x1.3813813813814p-10 /* 1/840 */ * t3;
+	const double t4 = 20.0 * sum[30];
+	const double t5 = sum[24] + t4;
+	out[24] = 0x1.d41d41d41d41dp-11 /* 1/1120 */ * t5;
+	const double t6 = 15.0 * sum[31];
+	const double t7 = sum[25] + t6;
+	out[25] = 0x1.3813813813814p-10 /* 1/840 */ * t7;
+	const double t8 = 6.0 * sum[32];
+	const double t9 = sum[26] + t8;
+	out[26] = 0x1.8618618618618p-9 /* 1/336 */ * t9;
 	out[27] = 0x1.2492492492492p-6 /* 1/56 */ * sum[27];
 }
 
 /* all moments of x^m y^n, m + n <= 7 */
 void ew_ring_moments_7_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.0000000000000p-1 /* 1/2 */ * sum[0];
+	out[0] = 0.5 * sum[0];
 	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
 	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
 	out[3] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3];
@@ -221,31 +221,31 @@ void ew_ring_moments_7_finish(const double *sum, double *out)
 	out[26] = 0x1.8618618618618p-9 /* 1/336 */ * sum[26];
 	out[27] = 0x1.2492492492492p-6 /* 1/56 */ * sum[27];
 	out[28] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[28];
-	const double t29 = 7.0 * sum[36];
-	const double t30 = sum[29] + t29;
-	out[29] = 0x1.0410410410410p-9 /* 1/504 */ * t30;
-	const double t32 = 21.0 * sum[37];
-	const double t33 = sum[30] + t32;
-	out[30] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * t33;
-	const double t35 = 35.0 * sum[38];
-	const double t36 = sum[31] + t35;
-	out[31] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t36;
-	const double t38 = 35.0 * sum[39];
-	const double t39 = sum[32] + t38;
-	out[32] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t39;
-	const double t41 = 21.0 * sum[40];
-	const double t42 = sum[33] + t41;
-	out[33] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * t42;
-	const double t44 = 7.0 * sum[41];
-	const double t45 = sum[34] + t44;
-	out[34] = 0x1.0410410410410p-9 /* 1/504 */ * t45;
+	const double t0 = 7.0 * sum[36];
+	const double t1 = sum[29] + t0;
+	out[29] = 0x1.0410410410410p-9 /* 1/504 */ * t1;
+	const double t2 = 21.0 * sum[37];
+	const double t3 = sum[30] + t2;
+	out[30] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * t3;
+	const double t4 = 35.0 * sum[38];
+	const double t5 = sum[31] + t4;
+	out[31] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t5;
+	const double t6 = 35.0 * sum[39];
+	const double t7 = sum[32] + t6;
+	out[32] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t7;
+	const double t8 = 21.0 * sum[40];
+	const double t9 = sum[33] + t8;
+	out[33] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * t9;
+	const double t10 = 7.0 * sum[41];
+	const double t11 = sum[34] + t10;
+	out[34] = 0x1.0410410410410p-9 /* 1/504 */ * t11;
 	out[35] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[35];
 }
 
 /* all moments of x^m y^n, m + n <= 8 */
 void ew_ring_moments_8_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.0000000000000p-1 /* 1/2 */ * sum[0];
+	out[0] = 0.5 * sum[0];
 	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
 	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
 	out[3] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3];
@@ -282,34 +282,34 @@ void ew_ring_moments_8_finish(const double *sum, double *out)
 	out[34] = 0x1.0410410410410p-9 /* 1/504 */ * sum[34];
 	out[35] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[35];
 	out[36] = 0x1.6c16c16c16c17p-7 /* 1/90 */ * sum[36];
-	const double t37 = 8.0 * sum[45];
-	const double t38 = sum[37] + t37;
-	out[37] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * t38;
-	const double t40 = 28.0 * sum[46];
-	const double t41 = sum[38] + t40;
-	out[38] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t41;
-	const double t43 = 56.0 * sum[47];
-	const double t44 = sum[39] + t43;
-	out[39] = 0x1.a01a01a01a01ap-13 /* 1/5040 */ * t44;
-	const double t46 = 70.0 * sum[48];
-	const double t47 = sum[40] + t46;
-	out[40] = 0x1.4ce19ae67b348p-13 /* 1/6300 */ * t47;
-	const double t49 = 56.0 * sum[49];
-	const double t50 = sum[41] + t49;
-	out[41] = 0x1.a01a01a01a01ap-13 /* 1/5040 */ * t50;
-	const double t52 = 28.0 * sum[50];
-	const double t53 = sum[42] + t52;
-	out[42] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t53;
-	const double t55 = 8.0 * sum[51];
-	const double t56 = sum[43] + t55;
-	out[43] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * t56;
+	const double t0 = 8.0 * sum[45];
+	const double t1 = sum[37] + t0;
+	out[37] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * t1;
+	const double t2 = 28.0 * sum[46];
+	const double t3 = sum[38] + t2;
+	out[38] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t3;
+	const double t4 = 56.0 * sum[47];
+	const double t5 = sum[39] + t4;
+	out[39] = 0x1.a01a01a01a01ap-13 /* 1/5040 */ * t5;
+	const double t6 = 70.0 * sum[48];
+	const double t7 = sum[40] + t6;
+	out[40] = 0x1.4ce19ae67b348p-13 /* 1/6300 */ * t7;
+	const double t8 = 56.0 * sum[49];
+	const double t9 = sum[41] + t8;
+	out[41] = 0x1.a01a01a01a01ap-13 /* 1/5040 */ * t9;
+	const double t10 = 28.0 * sum[50];
+	const double t11 = sum[42] + t10;
+	out[42] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t11;
+	const double t12 = 8.0 * sum[51];
+	const double t13 = sum[43] + t12;
+	out[43] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * t13;
 	out[44] = 0x1.6c16c16c16c17p-7 /* 1/90 */ * sum[44];
 }
 
 /* area */
 void ew_ring_x0y0_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.0000000000000p-1 /* 1/2 */ * sum[0];
+	out[0] = 0.5 * sum[0];
 }
 
 /* integral of x^1 y^0 */

@@ -20,18 +20,18 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y0_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			acc0 = t2 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			acc0 = acc0 + s;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -42,19 +42,19 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y0_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = x0 + x1;
-			acc0 = fma(t2, t3, acc0);
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = x0 + x1;
+			acc0 = fma(s, t2, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -65,19 +65,19 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y1_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = y0 + y1;
-			acc0 = fma(t2, t3, acc0);
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = y0 + y1;
+			acc0 = fma(s, t2, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -88,21 +88,21 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y0_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = x0 + x1;
-			const double t4 = x0 * t3;
-			const double t5 = fma(x1, x1, t4);
-			acc0 = fma(t2, t5, acc0);
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = x0 + x1;
+			const double t3 = t2 * x0;
+			const double t4 = fma(x1, x1, t3);
+			acc0 = fma(s, t4, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -113,22 +113,22 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y1_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = fma(y1, 2.0, y0);
-			const double t4 = fma(y0, 2.0, y1);
-			const double t5 = x0 * t4;
-			const double t6 = fma(x1, t3, t5);
-			acc0 = fma(t2, t6, acc0);
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = fma(2.0, y1, y0);
+			const double t3 = fma(2.0, y0, y1);
+			const double t4 = t3 * x0;
+			const double t5 = fma(t2, x1, t4);
+			acc0 = fma(s, t5, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -139,21 +139,21 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y2_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = y0 + y1;
-			const double t4 = y0 * t3;
-			const double t5 = fma(y1, y1, t4);
-			acc0 = fma(t2, t5, acc0);
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = y0 + y1;
+			const double t3 = t2 * y0;
+			const double t4 = fma(y1, y1, t3);
+			acc0 = fma(s, t4, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -164,23 +164,23 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y0_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
-			const double t3 = a * a;
-			const double t4 = fma(e, e, t3);
-			const double t5 = a * t4;
-			acc0 = fma(t2, t5, acc0);
+			const double t2 = a * a;
+			const double t3 = fma(e, e, t2);
+			const double t4 = a * t3;
+			acc0 = fma(s, t4, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -191,29 +191,29 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y1_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = 3.0 * t3;
-			const double t5 = fma(e, e, t4);
-			const double t6 = b * t5;
-			const double t7 = a * e;
-			const double t8 = f * t7;
-			const double t9 = fma(2.0, t8, t6);
-			acc0 = fma(t2, t9, acc0);
+			const double t2 = a * a;
+			const double t3 = 3.0 * t2;
+			const double t4 = fma(e, e, t3);
+			const double t5 = b * t4;
+			const double t6 = a * e;
+			const double t7 = f * t6;
+			const double t8 = fma(2.0, t7, t5);
+			acc0 = fma(s, t8, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -224,29 +224,29 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y2_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = 3.0 * t3;
-			const double t5 = fma(f, f, t4);
-			const double t6 = a * t5;
-			const double t7 = b * f;
-			const double t8 = e * t7;
-			const double t9 = fma(2.0, t8, t6);
-			acc0 = fma(t2, t9, acc0);
+			const double t2 = b * b;
+			const double t3 = 3.0 * t2;
+			const double t4 = fma(f, f, t3);
+			const double t5 = a * t4;
+			const double t6 = b * f;
+			const double t7 = e * t6;
+			const double t8 = fma(2.0, t7, t5);
+			acc0 = fma(s, t8, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -257,23 +257,23 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y3_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = fma(f, f, t3);
-			const double t5 = b * t4;
-			acc0 = fma(t2, t5, acc0);
+			const double t2 = b * b;
+			const double t3 = fma(f, f, t2);
+			const double t4 = b * t3;
+			acc0 = fma(s, t4, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -284,25 +284,25 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y0_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = x0 + x1;
-			const double t4 = x1 * x1;
-			const double t5 = fma(x0, t3, t4);
-			const double t6 = x1 * t4;
-			const double t7 = fma(x0, t5, t6);
-			const double t8 = x0 * t7;
-			const double t9 = fma(x1, t6, t8);
-			acc0 = fma(t2, t9, acc0);
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = x0 + x1;
+			const double t3 = x1 * x1;
+			const double t4 = fma(t2, x0, t3);
+			const double t5 = t3 * x1;
+			const double t6 = fma(t4, x0, t5);
+			const double t7 = t6 * x0;
+			const double t8 = fma(t5, x1, t7);
+			acc0 = fma(s, t8, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -313,30 +313,30 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y1_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = e * e;
-			const double t5 = t3 + t4;
-			const double t6 = a * b;
-			const double t7 = t5 * t6;
-			const double t8 = fma(t4, 0x1.999999999999ap-3 /* 1/5 */, t3);
-			const double t9 = e * f;
-			const double t10 = fma(t8, t9, t7);
-			acc0 = fma(t2, t10, acc0);
+			const double t2 = a * a;
+			const double t3 = e * e;
+			const double t4 = t2 + t3;
+			const double t5 = a * b;
+			const double t6 = t4 * t5;
+			const double t7 = fma(0x1.999999999999ap-3 /* 1/5 */, t3, t2);
+			const double t8 = e * f;
+			const double t9 = fma(t7, t8, t6);
+			acc0 = fma(s, t9, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -347,34 +347,34 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y2_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = f * f;
-			const double t5 = fma(t3, 3.0, t4);
-			const double t6 = a * a;
-			const double t7 = t5 * t6;
-			const double t8 = a * e;
-			const double t9 = b * f;
-			const double t10 = t8 * t9;
-			const double t11 = fma(4.0, t10, t7);
-			const double t12 = fma(t4, 0x1.3333333333333p-1 /* 3/5 */, t3);
-			const double t13 = e * e;
-			const double t14 = fma(t12, t13, t11);
-			acc0 = fma(t2, t14, acc0);
+			const double t2 = b * b;
+			const double t3 = f * f;
+			const double t4 = fma(3.0, t2, t3);
+			const double t5 = a * a;
+			const double t6 = t4 * t5;
+			const double t7 = a * e;
+			const double t8 = b * f;
+			const double t9 = t7 * t8;
+			const double t10 = fma(4.0, t9, t6);
+			const double t11 = fma(0x1.3333333333333p-1 /* 3/5 */, t3, t2);
+			const double t12 = e * e;
+			const double t13 = fma(t11, t12, t10);
+			acc0 = fma(s, t13, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -385,30 +385,30 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y3_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = f * f;
-			const double t5 = t3 + t4;
-			const double t6 = a * b;
-			const double t7 = t5 * t6;
-			const double t8 = fma(t4, 0x1.999999999999ap-3 /* 1/5 */, t3);
-			const double t9 = e * f;
-			const double t10 = fma(t8, t9, t7);
-			acc0 = fma(t2, t10, acc0);
+			const double t2 = b * b;
+			const double t3 = f * f;
+			const double t4 = t2 + t3;
+			const double t5 = a * b;
+			const double t6 = t4 * t5;
+			const double t7 = fma(0x1.999999999999ap-3 /* 1/5 */, t3, t2);
+			const double t8 = e * f;
+			const double t9 = fma(t7, t8, t6);
+			acc0 = fma(s, t9, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -419,25 +419,25 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y4_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = y0 + y1;
-			const double t4 = y1 * y1;
-			const double t5 = fma(y0, t3, t4);
-			const double t6 = y1 * t4;
-			const double t7 = fma(y0, t5, t6);
-			const double t8 = y0 * t7;
-			const double t9 = fma(y1, t6, t8);
-			acc0 = fma(t2, t9, acc0);
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = y0 + y1;
+			const double t3 = y1 * y1;
+			const double t4 = fma(t2, y0, t3);
+			const double t5 = t3 * y1;
+			const double t6 = fma(t4, y0, t5);
+			const double t7 = t6 * y0;
+			const double t8 = fma(t5, y1, t7);
+			acc0 = fma(s, t8, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -448,27 +448,27 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y0_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = x0 + x1;
-			const double t4 = x1 * x1;
-			const double t5 = fma(x0, t3, t4);
-			const double t6 = x1 * t4;
-			const double t7 = fma(x0, t5, t6);
-			const double t8 = x1 * t6;
-			const double t9 = fma(x0, t7, t8);
-			const double t10 = x0 * t9;
-			const double t11 = fma(x1, t8, t10);
-			acc0 = fma(t2, t11, acc0);
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = x0 + x1;
+			const double t3 = x1 * x1;
+			const double t4 = fma(t2, x0, t3);
+			const double t5 = t3 * x1;
+			const double t6 = fma(t4, x0, t5);
+			const double t7 = t5 * x1;
+			const double t8 = fma(t6, x0, t7);
+			const double t9 = t8 * x0;
+			const double t10 = fma(t7, x1, t9);
+			acc0 = fma(s, t10, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -479,35 +479,35 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y1_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = t3 * t3;
-			const double t5 = a * e;
-			const double t6 = t5 * t5;
-			const double t7 = fma(t6, 2.0, t4);
-			const double t8 = e * e;
-			const double t9 = t8 * t8;
-			const double t10 = fma(t9, 0x1.999999999999ap-3 /* 1/5 */, t7);
-			const double t11 = b * t10;
-			const double t12 = 0x1.5555555555555p0 /* 4/3 */ * t3;
-			const double t13 = fma(t8, 0x1.999999999999ap-1 /* 4/5 */, t12);
-			const double t14 = f * t5;
-			const double t15 = fma(t13, t14, t11);
-			acc0 = fma(t2, t15, acc0);
+			const double t2 = a * a;
+			const double t3 = t2 * t2;
+			const double t4 = a * e;
+			const double t5 = t4 * t4;
+			const double t6 = fma(2.0, t5, t3);
+			const double t7 = e * e;
+			const double t8 = t7 * t7;
+			const double t9 = fma(0x1.999999999999ap-3 /* 1/5 */, t8, t6);
+			const double t10 = b * t9;
+			const double t11 = 0x1.5555555555555p0 /* 4/3 */ * t2;
+			const double t12 = fma(0x1.999999999999ap-1 /* 4/5 */, t7, t11);
+			const double t13 = f * t4;
+			const double t14 = fma(t12, t13, t10);
+			acc0 = fma(s, t14, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -518,38 +518,38 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y2_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = e * e;
-			const double t5 = t3 + t4;
-			const double t6 = b * b;
-			const double t7 = a * t6;
-			const double t8 = t5 * t7;
-			const double t9 = 0x1.5555555555555p-2 /* 1/3 */ * t3;
-			const double t10 = fma(t4, 0x1.3333333333333p-1 /* 3/5 */, t9);
-			const double t11 = f * f;
-			const double t12 = a * t11;
-			const double t13 = fma(t10, t12, t8);
-			const double t14 = 2.0 * t3;
-			const double t15 = fma(t4, 0x1.999999999999ap-2 /* 2/5 */, t14);
-			const double t16 = b * f;
-			const double t17 = e * t16;
-			const double t18 = fma(t15, t17, t13);
-			acc0 = fma(t2, t18, acc0);
+			const double t2 = a * a;
+			const double t3 = e * e;
+			const double t4 = t2 + t3;
+			const double t5 = b * b;
+			const double t6 = a * t5;
+			const double t7 = t4 * t6;
+			const double t8 = 0x1.5555555555555p-2 /* 1/3 */ * t2;
+			const double t9 = fma(0x1.3333333333333p-1 /* 3/5 */, t3, t8);
+			const double t10 = f * f;
+			const double t11 = a * t10;
+			const double t12 = fma(t9, t11, t7);
+			const double t13 = 2.0 * t2;
+			const double t14 = fma(0x1.999999999999ap-2 /* 2/5 */, t3, t13);
+			const double t15 = b * f;
+			const double t16 = e * t15;
+			const double t17 = fma(t14, t16, t12);
+			acc0 = fma(s, t17, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -560,38 +560,38 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y3_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = f * f;
-			const double t5 = t3 + t4;
-			const double t6 = a * a;
-			const double t7 = b * t6;
-			const double t8 = t5 * t7;
-			const double t9 = 2.0 * t3;
-			const double t10 = fma(t4, 0x1.999999999999ap-2 /* 2/5 */, t9);
-			const double t11 = a * e;
-			const double t12 = f * t11;
-			const double t13 = fma(t10, t12, t8);
-			const double t14 = 0x1.5555555555555p-2 /* 1/3 */ * t3;
-			const double t15 = fma(t4, 0x1.3333333333333p-1 /* 3/5 */, t14);
-			const double t16 = e * e;
-			const double t17 = b * t16;
-			const double t18 = fma(t15, t17, t13);
-			acc0 = fma(t2, t18, acc0);
+			const double t2 = b * b;
+			const double t3 = f * f;
+			const double t4 = t2 + t3;
+			const double t5 = a * a;
+			const double t6 = b * t5;
+			const double t7 = t4 * t6;
+			const double t8 = 2.0 * t2;
+			const double t9 = fma(0x1.999999999999ap-2 /* 2/5 */, t3, t8);
+			const double t10 = a * e;
+			const double t11 = f * t10;
+			const double t12 = fma(t9, t11, t7);
+			const double t13 = 0x1.5555555555555p-2 /* 1/3 */ * t2;
+			const double t14 = fma(0x1.3333333333333p-1 /* 3/5 */, t3, t13);
+			const double t15 = e * e;
+			const double t16 = b * t15;
+			const double t17 = fma(t14, t16, t12);
+			acc0 = fma(s, t17, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -602,35 +602,35 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y4_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = t3 * t3;
-			const double t5 = b * f;
-			const double t6 = t5 * t5;
-			const double t7 = fma(t6, 2.0, t4);
-			const double t8 = f * f;
-			const double t9 = t8 * t8;
-			const double t10 = fma(t9, 0x1.999999999999ap-3 /* 1/5 */, t7);
-			const double t11 = a * t10;
-			const double t12 = 0x1.5555555555555p0 /* 4/3 */ * t3;
-			const double t13 = fma(t8, 0x1.999999999999ap-1 /* 4/5 */, t12);
-			const double t14 = e * t5;
-			const double t15 = fma(t13, t14, t11);
-			acc0 = fma(t2, t15, acc0);
+			const double t2 = b * b;
+			const double t3 = t2 * t2;
+			const double t4 = b * f;
+			const double t5 = t4 * t4;
+			const double t6 = fma(2.0, t5, t3);
+			const double t7 = f * f;
+			const double t8 = t7 * t7;
+			const double t9 = fma(0x1.999999999999ap-3 /* 1/5 */, t8, t6);
+			const double t10 = a * t9;
+			const double t11 = 0x1.5555555555555p0 /* 4/3 */ * t2;
+			const double t12 = fma(0x1.999999999999ap-1 /* 4/5 */, t7, t11);
+			const double t13 = e * t4;
+			const double t14 = fma(t12, t13, t10);
+			acc0 = fma(s, t14, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -641,27 +641,27 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y5_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = y0 + y1;
-			const double t4 = y1 * y1;
-			const double t5 = fma(y0, t3, t4);
-			const double t6 = y1 * t4;
-			const double t7 = fma(y0, t5, t6);
-			const double t8 = y1 * t6;
-			const double t9 = fma(y0, t7, t8);
-			const double t10 = y0 * t9;
-			const double t11 = fma(y1, t8, t10);
-			acc0 = fma(t2, t11, acc0);
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = y0 + y1;
+			const double t3 = y1 * y1;
+			const double t4 = fma(t2, y0, t3);
+			const double t5 = t3 * y1;
+			const double t6 = fma(t4, y0, t5);
+			const double t7 = t5 * y1;
+			const double t8 = fma(t6, y0, t7);
+			const double t9 = t8 * y0;
+			const double t10 = fma(t7, y1, t9);
+			acc0 = fma(s, t10, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -672,29 +672,29 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y0_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = x0 + x1;
-			const double t4 = x1 * x1;
-			const double t5 = fma(x0, t3, t4);
-			const double t6 = x1 * t4;
-			const double t7 = fma(x0, t5, t6);
-			const double t8 = x1 * t6;
-			const double t9 = fma(x0, t7, t8);
-			const double t10 = x1 * t8;
-			const double t11 = fma(x0, t9, t10);
-			const double t12 = x0 * t11;
-			const double t13 = fma(x1, t10, t12);
-			acc0 = fma(t2, t13, acc0);
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = x0 + x1;
+			const double t3 = x1 * x1;
+			const double t4 = fma(t2, x0, t3);
+			const double t5 = t3 * x1;
+			const double t6 = fma(t4, x0, t5);
+			const double t7 = t5 * x1;
+			const double t8 = fma(t6, x0, t7);
+			const double t9 = t7 * x1;
+			const double t10 = fma(t8, x0, t9);
+			const double t11 = t10 * x0;
+			const double t12 = fma(t9, x1, t11);
+			acc0 = fma(s, t12, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -705,7 +705,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y1_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
@@ -718,11 +718,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y1_fma(const double *x, const double *y, double 
 			const double t2 = a * a;
 			const double t3 = t2 * t2;
 			const double t4 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t3;
-			const double t5 = fma(t1, 2.0, t4);
+			const double t5 = fma(2.0, t1, t4);
 			const double t6 = e * e;
 			const double t7 = t6 * t6;
-			const double t8 = fma(t7, 0x1.2492492492492p-3 /* 1/7 */, t5);
-			const double t9 = fma(t1, 0x1.aaaaaaaaaaaabp1 /* 10/3 */, t3);
+			const double t8 = fma(0x1.2492492492492p-3 /* 1/7 */, t7, t5);
+			const double t9 = fma(0x1.aaaaaaaaaaaabp1 /* 10/3 */, t1, t3);
 			const double t10 = t9 + t7;
 			const double b = y0 + y1;
 			const double t11 = a * b;
@@ -731,11 +731,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y1_fma(const double *x, const double *y, double 
 			const double t13 = e * f;
 			const double t14 = fma(t8, t13, t12);
 			const double t15 = x0 * y1;
-			const double t16 = y0 * x1;
-			const double t17 = t15 - t16;
-			acc0 = fma(t17, t14, acc0);
+			const double t16 = x1 * y0;
+			const double s = t15 - t16;
+			acc0 = fma(s, t14, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -746,42 +746,42 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y2_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = t3 * t3;
-			const double t5 = a * e;
-			const double t6 = t5 * t5;
-			const double t7 = fma(t6, 2.0, t4);
-			const double t8 = e * e;
-			const double t9 = t8 * t8;
-			const double t10 = fma(t9, 0x1.999999999999ap-3 /* 1/5 */, t7);
-			const double t11 = b * b;
-			const double t12 = t10 * t11;
-			const double t13 = 0x1.5555555555555p-2 /* 1/3 */ * t4;
-			const double t14 = fma(t6, 0x1.3333333333333p0 /* 6/5 */, t13);
-			const double t15 = fma(t9, 0x1.2492492492492p-3 /* 1/7 */, t14);
-			const double t16 = f * f;
-			const double t17 = fma(t15, t16, t12);
-			const double t18 = 0x1.5555555555555p1 /* 8/3 */ * t3;
-			const double t19 = fma(t8, 0x1.999999999999ap0 /* 8/5 */, t18);
-			const double t20 = b * f;
-			const double t21 = t5 * t20;
-			const double t22 = fma(t19, t21, t17);
-			acc0 = fma(t2, t22, acc0);
+			const double t2 = a * a;
+			const double t3 = t2 * t2;
+			const double t4 = a * e;
+			const double t5 = t4 * t4;
+			const double t6 = fma(2.0, t5, t3);
+			const double t7 = e * e;
+			const double t8 = t7 * t7;
+			const double t9 = fma(0x1.999999999999ap-3 /* 1/5 */, t8, t6);
+			const double t10 = b * b;
+			const double t11 = t9 * t10;
+			const double t12 = 0x1.5555555555555p-2 /* 1/3 */ * t3;
+			const double t13 = fma(0x1.3333333333333p0 /* 6/5 */, t5, t12);
+			const double t14 = fma(0x1.2492492492492p-3 /* 1/7 */, t8, t13);
+			const double t15 = f * f;
+			const double t16 = fma(t14, t15, t11);
+			const double t17 = 0x1.5555555555555p1 /* 8/3 */ * t2;
+			const double t18 = fma(0x1.999999999999ap0 /* 8/5 */, t7, t17);
+			const double t19 = b * f;
+			const double t20 = t4 * t19;
+			const double t21 = fma(t18, t20, t16);
+			acc0 = fma(s, t21, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -792,44 +792,44 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y3_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t3;
-			const double t5 = f * f;
-			const double t6 = fma(0x1.aaaaaaaaaaaabp0 /* 5/3 */, t5, t4);
-			const double t7 = a * a;
-			const double t8 = a * t7;
-			const double t9 = b * t8;
-			const double t10 = t6 * t9;
-			const double t11 = fma(t3, 5.0, t5);
-			const double t12 = a * e;
-			const double t13 = a * t12;
-			const double t14 = f * t13;
-			const double t15 = fma(t11, t14, t10);
-			const double t16 = fma(t5, 3.0, t4);
-			const double t17 = e * t12;
-			const double t18 = b * t17;
-			const double t19 = fma(t16, t18, t15);
-			const double t20 = fma(t5, 0x1.e79e79e79e79ep-3 /* 5/21 */, t3);
-			const double t21 = e * e;
-			const double t22 = e * t21;
-			const double t23 = f * t22;
-			const double t24 = fma(t20, t23, t19);
-			acc0 = fma(t2, t24, acc0);
+			const double t2 = b * b;
+			const double t3 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t2;
+			const double t4 = f * f;
+			const double t5 = fma(0x1.aaaaaaaaaaaabp0 /* 5/3 */, t4, t3);
+			const double t6 = a * a;
+			const double t7 = a * t6;
+			const double t8 = b * t7;
+			const double t9 = t5 * t8;
+			const double t10 = fma(5.0, t2, t4);
+			const double t11 = a * e;
+			const double t12 = a * t11;
+			const double t13 = f * t12;
+			const double t14 = fma(t10, t13, t9);
+			const double t15 = fma(3.0, t4, t3);
+			const double t16 = e * t11;
+			const double t17 = b * t16;
+			const double t18 = fma(t15, t17, t14);
+			const double t19 = fma(0x1.e79e79e79e79ep-3 /* 5/21 */, t4, t2);
+			const double t20 = e * e;
+			const double t21 = e * t20;
+			const double t22 = f * t21;
+			const double t23 = fma(t19, t22, t18);
+			acc0 = fma(s, t23, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -840,42 +840,42 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y4_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = t3 * t3;
-			const double t5 = b * f;
-			const double t6 = t5 * t5;
-			const double t7 = fma(t6, 2.0, t4);
-			const double t8 = f * f;
-			const double t9 = t8 * t8;
-			const double t10 = fma(t9, 0x1.999999999999ap-3 /* 1/5 */, t7);
-			const double t11 = a * a;
-			const double t12 = t10 * t11;
-			const double t13 = 0x1.5555555555555p1 /* 8/3 */ * t3;
-			const double t14 = fma(t8, 0x1.999999999999ap0 /* 8/5 */, t13);
-			const double t15 = a * e;
-			const double t16 = t5 * t15;
-			const double t17 = fma(t14, t16, t12);
-			const double t18 = 0x1.5555555555555p-2 /* 1/3 */ * t4;
-			const double t19 = fma(t6, 0x1.3333333333333p0 /* 6/5 */, t18);
-			const double t20 = fma(t9, 0x1.2492492492492p-3 /* 1/7 */, t19);
-			const double t21 = e * e;
-			const double t22 = fma(t20, t21, t17);
-			acc0 = fma(t2, t22, acc0);
+			const double t2 = b * b;
+			const double t3 = t2 * t2;
+			const double t4 = b * f;
+			const double t5 = t4 * t4;
+			const double t6 = fma(2.0, t5, t3);
+			const double t7 = f * f;
+			const double t8 = t7 * t7;
+			const double t9 = fma(0x1.999999999999ap-3 /* 1/5 */, t8, t6);
+			const double t10 = a * a;
+			const double t11 = t9 * t10;
+			const double t12 = 0x1.5555555555555p1 /* 8/3 */ * t2;
+			const double t13 = fma(0x1.999999999999ap0 /* 8/5 */, t7, t12);
+			const double t14 = a * e;
+			const double t15 = t4 * t14;
+			const double t16 = fma(t13, t15, t11);
+			const double t17 = 0x1.5555555555555p-2 /* 1/3 */ * t3;
+			const double t18 = fma(0x1.3333333333333p0 /* 6/5 */, t5, t17);
+			const double t19 = fma(0x1.2492492492492p-3 /* 1/7 */, t8, t18);
+			const double t20 = e * e;
+			const double t21 = fma(t19, t20, t16);
+			acc0 = fma(s, t21, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -886,7 +886,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y5_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
@@ -899,11 +899,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y5_fma(const double *x, const double *y, double 
 			const double t2 = b * b;
 			const double t3 = t2 * t2;
 			const double t4 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t3;
-			const double t5 = fma(t1, 2.0, t4);
+			const double t5 = fma(2.0, t1, t4);
 			const double t6 = f * f;
 			const double t7 = t6 * t6;
-			const double t8 = fma(t7, 0x1.2492492492492p-3 /* 1/7 */, t5);
-			const double t9 = fma(t1, 0x1.aaaaaaaaaaaabp1 /* 10/3 */, t3);
+			const double t8 = fma(0x1.2492492492492p-3 /* 1/7 */, t7, t5);
+			const double t9 = fma(0x1.aaaaaaaaaaaabp1 /* 10/3 */, t1, t3);
 			const double t10 = t9 + t7;
 			const double a = x0 + x1;
 			const double t11 = a * b;
@@ -912,11 +912,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y5_fma(const double *x, const double *y, double 
 			const double t13 = e * f;
 			const double t14 = fma(t8, t13, t12);
 			const double t15 = x0 * y1;
-			const double t16 = y0 * x1;
-			const double t17 = t15 - t16;
-			acc0 = fma(t17, t14, acc0);
+			const double t16 = x1 * y0;
+			const double s = t15 - t16;
+			acc0 = fma(s, t14, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -927,29 +927,29 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y6_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = y0 + y1;
-			const double t4 = y1 * y1;
-			const double t5 = fma(y0, t3, t4);
-			const double t6 = y1 * t4;
-			const double t7 = fma(y0, t5, t6);
-			const double t8 = y1 * t6;
-			const double t9 = fma(y0, t7, t8);
-			const double t10 = y1 * t8;
-			const double t11 = fma(y0, t9, t10);
-			const double t12 = y0 * t11;
-			const double t13 = fma(y1, t10, t12);
-			acc0 = fma(t2, t13, acc0);
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = y0 + y1;
+			const double t3 = y1 * y1;
+			const double t4 = fma(t2, y0, t3);
+			const double t5 = t3 * y1;
+			const double t6 = fma(t4, y0, t5);
+			const double t7 = t5 * y1;
+			const double t8 = fma(t6, y0, t7);
+			const double t9 = t7 * y1;
+			const double t10 = fma(t8, y0, t9);
+			const double t11 = t10 * y0;
+			const double t12 = fma(t9, y1, t11);
+			acc0 = fma(s, t12, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -960,31 +960,31 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y0_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = x0 + x1;
-			const double t4 = x1 * x1;
-			const double t5 = fma(x0, t3, t4);
-			const double t6 = x1 * t4;
-			const double t7 = fma(x0, t5, t6);
-			const double t8 = x1 * t6;
-			const double t9 = fma(x0, t7, t8);
-			const double t10 = x1 * t8;
-			const double t11 = fma(x0, t9, t10);
-			const double t12 = x1 * t10;
-			const double t13 = fma(x0, t11, t12);
-			const double t14 = x0 * t13;
-			const double t15 = fma(x1, t12, t14);
-			acc0 = fma(t2, t15, acc0);
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = x0 + x1;
+			const double t3 = x1 * x1;
+			const double t4 = fma(t2, x0, t3);
+			const double t5 = t3 * x1;
+			const double t6 = fma(t4, x0, t5);
+			const double t7 = t5 * x1;
+			const double t8 = fma(t6, x0, t7);
+			const double t9 = t7 * x1;
+			const double t10 = fma(t8, x0, t9);
+			const double t11 = t9 * x1;
+			const double t12 = fma(t10, x0, t11);
+			const double t13 = t12 * x0;
+			const double t14 = fma(t11, x1, t13);
+			acc0 = fma(s, t14, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -995,7 +995,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y1_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
@@ -1008,17 +1008,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y1_fma(const double *x, const double *y, double 
 			const double t2 = a * a;
 			const double t3 = t2 * t2;
 			const double t4 = 14.0 * t3;
-			const double t5 = fma(t1, 28.0, t4);
+			const double t5 = fma(28.0, t1, t4);
 			const double t6 = e * e;
 			const double t7 = t6 * t6;
-			const double t8 = fma(t7, 6.0, t5);
+			const double t8 = fma(6.0, t7, t5);
 			const double t9 = t2 * t1;
 			const double t10 = a * t2;
 			const double t11 = t10 * t10;
 			const double t12 = 7.0 * t11;
-			const double t13 = fma(t9, 35.0, t12);
+			const double t13 = fma(35.0, t9, t12);
 			const double t14 = t1 * t6;
-			const double t15 = fma(t14, 21.0, t13);
+			const double t15 = fma(21.0, t14, t13);
 			const double t16 = e * t6;
 			const double t17 = fma(t16, t16, t15);
 			const double b = y0 + y1;
@@ -1027,11 +1027,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y1_fma(const double *x, const double *y, double 
 			const double t19 = f * t0;
 			const double t20 = fma(t8, t19, t18);
 			const double t21 = x0 * y1;
-			const double t22 = y0 * x1;
-			const double t23 = t21 - t22;
-			acc0 = fma(t23, t20, acc0);
+			const double t22 = x1 * y0;
+			const double s = t21 - t22;
+			acc0 = fma(s, t20, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1042,44 +1042,44 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y2_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = t3 * t3;
-			const double t5 = a * e;
-			const double t6 = t5 * t5;
-			const double t7 = fma(t4, 0x1.3333333333333p-2 /* 3/10 */, t6);
-			const double t8 = e * e;
-			const double t9 = t8 * t8;
-			const double t10 = fma(0x1.3333333333333p-2 /* 3/10 */, t9, t7);
-			const double t11 = b * b;
-			const double t12 = a * t11;
-			const double t13 = t10 * t12;
-			const double t14 = 0x1.999999999999ap-4 /* 1/10 */ * t4;
-			const double t15 = fma(t6, 0x1.3333333333333p-1 /* 3/5 */, t14);
-			const double t16 = fma(t9, 0x1.b6db6db6db6dbp-3 /* 3/14 */, t15);
-			const double t17 = f * f;
-			const double t18 = a * t17;
-			const double t19 = fma(t16, t18, t13);
-			const double t20 = fma(t6, 0x1.3333333333333p0 /* 6/5 */, t4);
-			const double t21 = fma(t9, 0x1.5f15f15f15f16p-4 /* 3/35 */, t20);
-			const double t22 = b * f;
-			const double t23 = e * t22;
-			const double t24 = fma(t21, t23, t19);
-			acc0 = fma(t2, t24, acc0);
+			const double t2 = a * a;
+			const double t3 = t2 * t2;
+			const double t4 = a * e;
+			const double t5 = t4 * t4;
+			const double t6 = fma(0x1.3333333333333p-2 /* 3/10 */, t3, t5);
+			const double t7 = e * e;
+			const double t8 = t7 * t7;
+			const double t9 = fma(0x1.3333333333333p-2 /* 3/10 */, t8, t6);
+			const double t10 = b * b;
+			const double t11 = a * t10;
+			const double t12 = t9 * t11;
+			const double t13 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
+			const double t14 = fma(0x1.3333333333333p-1 /* 3/5 */, t5, t13);
+			const double t15 = fma(0x1.b6db6db6db6dbp-3 /* 3/14 */, t8, t14);
+			const double t16 = f * f;
+			const double t17 = a * t16;
+			const double t18 = fma(t15, t17, t12);
+			const double t19 = fma(0x1.3333333333333p0 /* 6/5 */, t5, t3);
+			const double t20 = fma(0x1.5f15f15f15f16p-4 /* 3/35 */, t8, t19);
+			const double t21 = b * f;
+			const double t22 = e * t21;
+			const double t23 = fma(t20, t22, t18);
+			acc0 = fma(s, t23, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1090,49 +1090,49 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y3_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = t3 * t3;
-			const double t5 = a * e;
-			const double t6 = t5 * t5;
-			const double t7 = fma(t6, 2.0, t4);
-			const double t8 = e * e;
-			const double t9 = t8 * t8;
-			const double t10 = fma(t9, 0x1.999999999999ap-3 /* 1/5 */, t7);
-			const double t11 = b * b;
-			const double t12 = b * t11;
-			const double t13 = t10 * t12;
-			const double t14 = fma(t6, 0x1.ccccccccccccdp1 /* 18/5 */, t4);
-			const double t15 = fma(t9, 0x1.b6db6db6db6dbp-2 /* 3/7 */, t14);
-			const double t16 = b * f;
-			const double t17 = f * t16;
-			const double t18 = fma(t15, t17, t13);
-			const double t19 = 4.0 * t3;
-			const double t20 = fma(t8, 0x1.3333333333333p1 /* 12/5 */, t19);
-			const double t21 = b * t16;
-			const double t22 = t5 * t21;
-			const double t23 = fma(t20, t22, t18);
-			const double t24 = 0x1.999999999999ap-1 /* 4/5 */ * t3;
-			const double t25 = fma(t8, 0x1.2492492492492p-1 /* 4/7 */, t24);
-			const double t26 = f * f;
-			const double t27 = f * t26;
-			const double t28 = t5 * t27;
-			const double t29 = fma(t25, t28, t23);
-			acc0 = fma(t2, t29, acc0);
+			const double t2 = a * a;
+			const double t3 = t2 * t2;
+			const double t4 = a * e;
+			const double t5 = t4 * t4;
+			const double t6 = fma(2.0, t5, t3);
+			const double t7 = e * e;
+			const double t8 = t7 * t7;
+			const double t9 = fma(0x1.999999999999ap-3 /* 1/5 */, t8, t6);
+			const double t10 = b * b;
+			const double t11 = b * t10;
+			const double t12 = t9 * t11;
+			const double t13 = fma(0x1.ccccccccccccdp1 /* 18/5 */, t5, t3);
+			const double t14 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t13);
+			const double t15 = b * f;
+			const double t16 = f * t15;
+			const double t17 = fma(t14, t16, t12);
+			const double t18 = 4.0 * t2;
+			const double t19 = fma(0x1.3333333333333p1 /* 12/5 */, t7, t18);
+			const double t20 = b * t15;
+			const double t21 = t4 * t20;
+			const double t22 = fma(t19, t21, t17);
+			const double t23 = 0x1.999999999999ap-1 /* 4/5 */ * t2;
+			const double t24 = fma(0x1.2492492492492p-1 /* 4/7 */, t7, t23);
+			const double t25 = f * f;
+			const double t26 = f * t25;
+			const double t27 = t4 * t26;
+			const double t28 = fma(t24, t27, t22);
+			acc0 = fma(s, t28, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1143,49 +1143,49 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y4_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = t3 * t3;
-			const double t5 = b * f;
-			const double t6 = t5 * t5;
-			const double t7 = fma(t6, 2.0, t4);
-			const double t8 = f * f;
-			const double t9 = t8 * t8;
-			const double t10 = fma(t9, 0x1.999999999999ap-3 /* 1/5 */, t7);
-			const double t11 = a * a;
-			const double t12 = a * t11;
-			const double t13 = t10 * t12;
-			const double t14 = 4.0 * t3;
-			const double t15 = fma(t8, 0x1.3333333333333p1 /* 12/5 */, t14);
-			const double t16 = a * e;
-			const double t17 = a * t16;
-			const double t18 = t5 * t17;
-			const double t19 = fma(t15, t18, t13);
-			const double t20 = fma(t6, 0x1.ccccccccccccdp1 /* 18/5 */, t4);
-			const double t21 = fma(t9, 0x1.b6db6db6db6dbp-2 /* 3/7 */, t20);
-			const double t22 = e * t16;
-			const double t23 = fma(t21, t22, t19);
-			const double t24 = 0x1.999999999999ap-1 /* 4/5 */ * t3;
-			const double t25 = fma(t8, 0x1.2492492492492p-1 /* 4/7 */, t24);
-			const double t26 = e * e;
-			const double t27 = e * t26;
-			const double t28 = t5 * t27;
-			const double t29 = fma(t25, t28, t23);
-			acc0 = fma(t2, t29, acc0);
+			const double t2 = b * b;
+			const double t3 = t2 * t2;
+			const double t4 = b * f;
+			const double t5 = t4 * t4;
+			const double t6 = fma(2.0, t5, t3);
+			const double t7 = f * f;
+			const double t8 = t7 * t7;
+			const double t9 = fma(0x1.999999999999ap-3 /* 1/5 */, t8, t6);
+			const double t10 = a * a;
+			const double t11 = a * t10;
+			const double t12 = t9 * t11;
+			const double t13 = 4.0 * t2;
+			const double t14 = fma(0x1.3333333333333p1 /* 12/5 */, t7, t13);
+			const double t15 = a * e;
+			const double t16 = a * t15;
+			const double t17 = t4 * t16;
+			const double t18 = fma(t14, t17, t12);
+			const double t19 = fma(0x1.ccccccccccccdp1 /* 18/5 */, t5, t3);
+			const double t20 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t19);
+			const double t21 = e * t15;
+			const double t22 = fma(t20, t21, t18);
+			const double t23 = 0x1.999999999999ap-1 /* 4/5 */ * t2;
+			const double t24 = fma(0x1.2492492492492p-1 /* 4/7 */, t7, t23);
+			const double t25 = e * e;
+			const double t26 = e * t25;
+			const double t27 = t4 * t26;
+			const double t28 = fma(t24, t27, t22);
+			acc0 = fma(s, t28, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1196,44 +1196,44 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y5_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = t3 * t3;
-			const double t5 = b * f;
-			const double t6 = t5 * t5;
-			const double t7 = fma(t4, 0x1.3333333333333p-2 /* 3/10 */, t6);
-			const double t8 = f * f;
-			const double t9 = t8 * t8;
-			const double t10 = fma(0x1.3333333333333p-2 /* 3/10 */, t9, t7);
-			const double t11 = a * a;
-			const double t12 = b * t11;
-			const double t13 = t10 * t12;
-			const double t14 = fma(t6, 0x1.3333333333333p0 /* 6/5 */, t4);
-			const double t15 = fma(t9, 0x1.5f15f15f15f16p-4 /* 3/35 */, t14);
-			const double t16 = a * e;
-			const double t17 = f * t16;
-			const double t18 = fma(t15, t17, t13);
-			const double t19 = 0x1.999999999999ap-4 /* 1/10 */ * t4;
-			const double t20 = fma(t6, 0x1.3333333333333p-1 /* 3/5 */, t19);
-			const double t21 = fma(t9, 0x1.b6db6db6db6dbp-3 /* 3/14 */, t20);
-			const double t22 = e * e;
-			const double t23 = b * t22;
-			const double t24 = fma(t21, t23, t18);
-			acc0 = fma(t2, t24, acc0);
+			const double t2 = b * b;
+			const double t3 = t2 * t2;
+			const double t4 = b * f;
+			const double t5 = t4 * t4;
+			const double t6 = fma(0x1.3333333333333p-2 /* 3/10 */, t3, t5);
+			const double t7 = f * f;
+			const double t8 = t7 * t7;
+			const double t9 = fma(0x1.3333333333333p-2 /* 3/10 */, t8, t6);
+			const double t10 = a * a;
+			const double t11 = b * t10;
+			const double t12 = t9 * t11;
+			const double t13 = fma(0x1.3333333333333p0 /* 6/5 */, t5, t3);
+			const double t14 = fma(0x1.5f15f15f15f16p-4 /* 3/35 */, t8, t13);
+			const double t15 = a * e;
+			const double t16 = f * t15;
+			const double t17 = fma(t14, t16, t12);
+			const double t18 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
+			const double t19 = fma(0x1.3333333333333p-1 /* 3/5 */, t5, t18);
+			const double t20 = fma(0x1.b6db6db6db6dbp-3 /* 3/14 */, t8, t19);
+			const double t21 = e * e;
+			const double t22 = b * t21;
+			const double t23 = fma(t20, t22, t17);
+			acc0 = fma(s, t23, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1244,7 +1244,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y6_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
@@ -1257,17 +1257,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y6_fma(const double *x, const double *y, double 
 			const double t2 = b * b;
 			const double t3 = t2 * t2;
 			const double t4 = 14.0 * t3;
-			const double t5 = fma(t1, 28.0, t4);
+			const double t5 = fma(28.0, t1, t4);
 			const double t6 = f * f;
 			const double t7 = t6 * t6;
-			const double t8 = fma(t7, 6.0, t5);
+			const double t8 = fma(6.0, t7, t5);
 			const double t9 = t2 * t1;
 			const double t10 = b * t2;
 			const double t11 = t10 * t10;
 			const double t12 = 7.0 * t11;
-			const double t13 = fma(t9, 35.0, t12);
+			const double t13 = fma(35.0, t9, t12);
 			const double t14 = t1 * t6;
-			const double t15 = fma(t14, 21.0, t13);
+			const double t15 = fma(21.0, t14, t13);
 			const double t16 = f * t6;
 			const double t17 = fma(t16, t16, t15);
 			const double a = x0 + x1;
@@ -1276,11 +1276,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y6_fma(const double *x, const double *y, double 
 			const double t19 = e * t0;
 			const double t20 = fma(t8, t19, t18);
 			const double t21 = x0 * y1;
-			const double t22 = y0 * x1;
-			const double t23 = t21 - t22;
-			acc0 = fma(t23, t20, acc0);
+			const double t22 = x1 * y0;
+			const double s = t21 - t22;
+			acc0 = fma(s, t20, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1291,31 +1291,31 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y7_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = y0 + y1;
-			const double t4 = y1 * y1;
-			const double t5 = fma(y0, t3, t4);
-			const double t6 = y1 * t4;
-			const double t7 = fma(y0, t5, t6);
-			const double t8 = y1 * t6;
-			const double t9 = fma(y0, t7, t8);
-			const double t10 = y1 * t8;
-			const double t11 = fma(y0, t9, t10);
-			const double t12 = y1 * t10;
-			const double t13 = fma(y0, t11, t12);
-			const double t14 = y0 * t13;
-			const double t15 = fma(y1, t12, t14);
-			acc0 = fma(t2, t15, acc0);
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = y0 + y1;
+			const double t3 = y1 * y1;
+			const double t4 = fma(t2, y0, t3);
+			const double t5 = t3 * y1;
+			const double t6 = fma(t4, y0, t5);
+			const double t7 = t5 * y1;
+			const double t8 = fma(t6, y0, t7);
+			const double t9 = t7 * y1;
+			const double t10 = fma(t8, y0, t9);
+			const double t11 = t9 * y1;
+			const double t12 = fma(t10, y0, t11);
+			const double t13 = t12 * y0;
+			const double t14 = fma(t11, y1, t13);
+			acc0 = fma(s, t14, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1326,33 +1326,33 @@ EW_ATTRIBUTE_FMA void ew_ring_x8y0_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = x0 + x1;
-			const double t4 = x1 * x1;
-			const double t5 = fma(x0, t3, t4);
-			const double t6 = x1 * t4;
-			const double t7 = fma(x0, t5, t6);
-			const double t8 = x1 * t6;
-			const double t9 = fma(x0, t7, t8);
-			const double t10 = x1 * t8;
-			const double t11 = fma(x0, t9, t10);
-			const double t12 = x1 * t10;
-			const double t13 = fma(x0, t11, t12);
-			const double t14 = x1 * t12;
-			const double t15 = fma(x0, t13, t14);
-			const double t16 = x0 * t15;
-			const double t17 = fma(x1, t14, t16);
-			acc0 = fma(t2, t17, acc0);
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = x0 + x1;
+			const double t3 = x1 * x1;
+			const double t4 = fma(t2, x0, t3);
+			const double t5 = t3 * x1;
+			const double t6 = fma(t4, x0, t5);
+			const double t7 = t5 * x1;
+			const double t8 = fma(t6, x0, t7);
+			const double t9 = t7 * x1;
+			const double t10 = fma(t8, x0, t9);
+			const double t11 = t9 * x1;
+			const double t12 = fma(t10, x0, t11);
+			const double t13 = t11 * x1;
+			const double t14 = fma(t12, x0, t13);
+			const double t15 = t14 * x0;
+			const double t16 = fma(t13, x1, t15);
+			acc0 = fma(s, t16, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1363,7 +1363,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y1_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
@@ -1377,14 +1377,14 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y1_fma(const double *x, const double *y, double 
 			const double t3 = a * e;
 			const double t4 = t3 * t3;
 			const double t5 = t0 * t4;
-			const double t6 = fma(t2, 0x1.5555555555555p-2 /* 1/3 */, t5);
+			const double t6 = fma(0x1.5555555555555p-2 /* 1/3 */, t2, t5);
 			const double t7 = e * e;
 			const double t8 = t4 * t7;
-			const double t9 = fma(t8, 0x1.b6db6db6db6dbp-2 /* 3/7 */, t6);
+			const double t9 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t6);
 			const double t10 = e * t7;
 			const double t11 = t10 * t10;
-			const double t12 = fma(t11, 0x1.0410410410410p-6 /* 1/63 */, t9);
-			const double t13 = fma(t2, 0x1.2492492492492p-3 /* 1/7 */, t5);
+			const double t12 = fma(0x1.0410410410410p-6 /* 1/63 */, t11, t9);
+			const double t13 = fma(0x1.2492492492492p-3 /* 1/7 */, t2, t5);
 			const double t14 = t13 + t8;
 			const double t15 = fma(0x1.2492492492492p-3 /* 1/7 */, t11, t14);
 			const double b = y0 + y1;
@@ -1394,11 +1394,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y1_fma(const double *x, const double *y, double 
 			const double t18 = e * f;
 			const double t19 = fma(t12, t18, t17);
 			const double t20 = x0 * y1;
-			const double t21 = y0 * x1;
-			const double t22 = t20 - t21;
-			acc0 = fma(t22, t19, acc0);
+			const double t21 = x1 * y0;
+			const double s = t20 - t21;
+			acc0 = fma(s, t19, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1409,7 +1409,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y2_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
@@ -1423,17 +1423,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y2_fma(const double *x, const double *y, double 
 			const double t3 = a * e;
 			const double t4 = t3 * t3;
 			const double t5 = t0 * t4;
-			const double t6 = fma(t2, 0x1.c71c71c71c71cp-4 /* 1/9 */, t5);
+			const double t6 = fma(0x1.c71c71c71c71cp-4 /* 1/9 */, t2, t5);
 			const double t7 = e * e;
 			const double t8 = t4 * t7;
-			const double t9 = fma(t8, 0x1.6db6db6db6db7p-1 /* 5/7 */, t6);
+			const double t9 = fma(0x1.6db6db6db6db7p-1 /* 5/7 */, t8, t6);
 			const double t10 = e * t7;
 			const double t11 = t10 * t10;
-			const double t12 = fma(t11, 0x1.2f684bda12f68p-5 /* 1/27 */, t9);
+			const double t12 = fma(0x1.2f684bda12f68p-5 /* 1/27 */, t11, t9);
 			const double t13 = 0x1.5555555555555p-2 /* 1/3 */ * t2;
-			const double t14 = fma(t5, 0x1.aaaaaaaaaaaabp0 /* 5/3 */, t13);
+			const double t14 = fma(0x1.aaaaaaaaaaaabp0 /* 5/3 */, t5, t13);
 			const double t15 = t14 + t8;
-			const double t16 = fma(t11, 0x1.8618618618618p-5 /* 1/21 */, t15);
+			const double t16 = fma(0x1.8618618618618p-5 /* 1/21 */, t11, t15);
 			const double b = y0 + y1;
 			const double t17 = b * b;
 			const double t18 = t16 * t17;
@@ -1442,18 +1442,18 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y2_fma(const double *x, const double *y, double 
 			const double t20 = fma(t12, t19, t18);
 			const double t21 = t0 * t0;
 			const double t22 = 0x1.5555555555555p0 /* 4/3 */ * t21;
-			const double t23 = fma(t4, 0x1.5555555555555p1 /* 8/3 */, t22);
+			const double t23 = fma(0x1.5555555555555p1 /* 8/3 */, t4, t22);
 			const double t24 = t7 * t7;
-			const double t25 = fma(t24, 0x1.2492492492492p-1 /* 4/7 */, t23);
+			const double t25 = fma(0x1.2492492492492p-1 /* 4/7 */, t24, t23);
 			const double t26 = b * f;
 			const double t27 = t3 * t26;
 			const double t28 = fma(t25, t27, t20);
 			const double t29 = x0 * y1;
-			const double t30 = y0 * x1;
-			const double t31 = t29 - t30;
-			acc0 = fma(t31, t28, acc0);
+			const double t30 = x1 * y0;
+			const double s = t29 - t30;
+			acc0 = fma(s, t28, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1464,52 +1464,52 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y3_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = t3 * t3;
-			const double t5 = a * e;
-			const double t6 = t5 * t5;
-			const double t7 = fma(t6, 0x1.aaaaaaaaaaaabp1 /* 10/3 */, t4);
-			const double t8 = e * e;
-			const double t9 = t8 * t8;
-			const double t10 = t7 + t9;
-			const double t11 = b * b;
-			const double t12 = b * t11;
-			const double t13 = a * t12;
-			const double t14 = t10 * t13;
-			const double t15 = 6.0 * t6;
-			const double t16 = t4 + t15;
-			const double t17 = fma(t9, 0x1.1249249249249p1 /* 15/7 */, t16);
-			const double t18 = b * f;
-			const double t19 = f * t18;
-			const double t20 = a * t19;
-			const double t21 = fma(t17, t20, t14);
-			const double t22 = fma(t4, 5.0, t15);
-			const double t23 = fma(t9, 0x1.b6db6db6db6dbp-2 /* 3/7 */, t22);
-			const double t24 = b * t18;
-			const double t25 = e * t24;
-			const double t26 = fma(t23, t25, t21);
-			const double t27 = fma(t6, 0x1.6db6db6db6db7p0 /* 10/7 */, t4);
-			const double t28 = fma(t9, 0x1.c71c71c71c71cp-4 /* 1/9 */, t27);
-			const double t29 = f * f;
-			const double t30 = f * t29;
-			const double t31 = e * t30;
-			const double t32 = fma(t28, t31, t26);
-			acc0 = fma(t2, t32, acc0);
+			const double t2 = a * a;
+			const double t3 = t2 * t2;
+			const double t4 = a * e;
+			const double t5 = t4 * t4;
+			const double t6 = fma(0x1.aaaaaaaaaaaabp1 /* 10/3 */, t5, t3);
+			const double t7 = e * e;
+			const double t8 = t7 * t7;
+			const double t9 = t6 + t8;
+			const double t10 = b * b;
+			const double t11 = b * t10;
+			const double t12 = a * t11;
+			const double t13 = t9 * t12;
+			const double t14 = 6.0 * t5;
+			const double t15 = t3 + t14;
+			const double t16 = fma(0x1.1249249249249p1 /* 15/7 */, t8, t15);
+			const double t17 = b * f;
+			const double t18 = f * t17;
+			const double t19 = a * t18;
+			const double t20 = fma(t16, t19, t13);
+			const double t21 = fma(5.0, t3, t14);
+			const double t22 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t21);
+			const double t23 = b * t17;
+			const double t24 = e * t23;
+			const double t25 = fma(t22, t24, t20);
+			const double t26 = fma(0x1.6db6db6db6db7p0 /* 10/7 */, t5, t3);
+			const double t27 = fma(0x1.c71c71c71c71cp-4 /* 1/9 */, t8, t26);
+			const double t28 = f * f;
+			const double t29 = f * t28;
+			const double t30 = e * t29;
+			const double t31 = fma(t27, t30, t25);
+			acc0 = fma(s, t31, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1520,54 +1520,54 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y4_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = t3 * t3;
-			const double t5 = b * f;
-			const double t6 = t5 * t5;
-			const double t7 = fma(t4, 0x1.0000000000000p-1 /* 1/2 */, t6);
-			const double t8 = f * f;
-			const double t9 = t8 * t8;
-			const double t10 = fma(t9, 0x1.999999999999ap-4 /* 1/10 */, t7);
-			const double t11 = a * a;
-			const double t12 = t11 * t11;
-			const double t13 = t10 * t12;
-			const double t14 = 0x1.5555555555555p1 /* 8/3 */ * t3;
-			const double t15 = fma(t8, 0x1.999999999999ap0 /* 8/5 */, t14);
-			const double t16 = a * e;
-			const double t17 = t11 * t16;
-			const double t18 = t5 * t17;
-			const double t19 = fma(t15, t18, t13);
-			const double t20 = fma(t6, 0x1.ccccccccccccdp1 /* 18/5 */, t4);
-			const double t21 = fma(t9, 0x1.b6db6db6db6dbp-2 /* 3/7 */, t20);
-			const double t22 = t16 * t16;
-			const double t23 = fma(t21, t22, t19);
-			const double t24 = 0x1.999999999999ap0 /* 8/5 */ * t3;
-			const double t25 = fma(t8, 0x1.2492492492492p0 /* 8/7 */, t24);
-			const double t26 = e * e;
-			const double t27 = t16 * t26;
-			const double t28 = t5 * t27;
-			const double t29 = fma(t25, t28, t23);
-			const double t30 = 0x1.999999999999ap-4 /* 1/10 */ * t4;
-			const double t31 = fma(t6, 0x1.b6db6db6db6dbp-2 /* 3/7 */, t30);
-			const double t32 = fma(t9, 0x1.c71c71c71c71cp-5 /* 1/18 */, t31);
-			const double t33 = t26 * t26;
-			const double t34 = fma(t32, t33, t29);
-			acc0 = fma(t2, t34, acc0);
+			const double t2 = b * b;
+			const double t3 = t2 * t2;
+			const double t4 = b * f;
+			const double t5 = t4 * t4;
+			const double t6 = fma(0.5, t3, t5);
+			const double t7 = f * f;
+			const double t8 = t7 * t7;
+			const double t9 = fma(0x1.999999999999ap-4 /* 1/10 */, t8, t6);
+			const double t10 = a * a;
+			const double t11 = t10 * t10;
+			const double t12 = t9 * t11;
+			const double t13 = 0x1.5555555555555p1 /* 8/3 */ * t2;
+			const double t14 = fma(0x1.999999999999ap0 /* 8/5 */, t7, t13);
+			const double t15 = a * e;
+			const double t16 = t10 * t15;
+			const double t17 = t4 * t16;
+			const double t18 = fma(t14, t17, t12);
+			const double t19 = fma(0x1.ccccccccccccdp1 /* 18/5 */, t5, t3);
+			const double t20 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t19);
+			const double t21 = t15 * t15;
+			const double t22 = fma(t20, t21, t18);
+			const double t23 = 0x1.999999999999ap0 /* 8/5 */ * t2;
+			const double t24 = fma(0x1.2492492492492p0 /* 8/7 */, t7, t23);
+			const double t25 = e * e;
+			const double t26 = t15 * t25;
+			const double t27 = t4 * t26;
+			const double t28 = fma(t24, t27, t22);
+			const double t29 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
+			const double t30 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t5, t29);
+			const double t31 = fma(0x1.c71c71c71c71cp-5 /* 1/18 */, t8, t30);
+			const double t32 = t25 * t25;
+			const double t33 = fma(t31, t32, t28);
+			acc0 = fma(s, t33, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1578,52 +1578,52 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y5_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = t3 * t3;
-			const double t5 = b * f;
-			const double t6 = t5 * t5;
-			const double t7 = fma(t6, 0x1.aaaaaaaaaaaabp1 /* 10/3 */, t4);
-			const double t8 = f * f;
-			const double t9 = t8 * t8;
-			const double t10 = t7 + t9;
-			const double t11 = a * a;
-			const double t12 = a * t11;
-			const double t13 = b * t12;
-			const double t14 = t10 * t13;
-			const double t15 = 6.0 * t6;
-			const double t16 = fma(t4, 5.0, t15);
-			const double t17 = fma(t9, 0x1.b6db6db6db6dbp-2 /* 3/7 */, t16);
-			const double t18 = a * e;
-			const double t19 = a * t18;
-			const double t20 = f * t19;
-			const double t21 = fma(t17, t20, t14);
-			const double t22 = t4 + t15;
-			const double t23 = fma(t9, 0x1.1249249249249p1 /* 15/7 */, t22);
-			const double t24 = e * t18;
-			const double t25 = b * t24;
-			const double t26 = fma(t23, t25, t21);
-			const double t27 = fma(t6, 0x1.6db6db6db6db7p0 /* 10/7 */, t4);
-			const double t28 = fma(t9, 0x1.c71c71c71c71cp-4 /* 1/9 */, t27);
-			const double t29 = e * e;
-			const double t30 = e * t29;
-			const double t31 = f * t30;
-			const double t32 = fma(t28, t31, t26);
-			acc0 = fma(t2, t32, acc0);
+			const double t2 = b * b;
+			const double t3 = t2 * t2;
+			const double t4 = b * f;
+			const double t5 = t4 * t4;
+			const double t6 = fma(0x1.aaaaaaaaaaaabp1 /* 10/3 */, t5, t3);
+			const double t7 = f * f;
+			const double t8 = t7 * t7;
+			const double t9 = t6 + t8;
+			const double t10 = a * a;
+			const double t11 = a * t10;
+			const double t12 = b * t11;
+			const double t13 = t9 * t12;
+			const double t14 = 6.0 * t5;
+			const double t15 = fma(5.0, t3, t14);
+			const double t16 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t15);
+			const double t17 = a * e;
+			const double t18 = a * t17;
+			const double t19 = f * t18;
+			const double t20 = fma(t16, t19, t13);
+			const double t21 = t3 + t14;
+			const double t22 = fma(0x1.1249249249249p1 /* 15/7 */, t8, t21);
+			const double t23 = e * t17;
+			const double t24 = b * t23;
+			const double t25 = fma(t22, t24, t20);
+			const double t26 = fma(0x1.6db6db6db6db7p0 /* 10/7 */, t5, t3);
+			const double t27 = fma(0x1.c71c71c71c71cp-4 /* 1/9 */, t8, t26);
+			const double t28 = e * e;
+			const double t29 = e * t28;
+			const double t30 = f * t29;
+			const double t31 = fma(t27, t30, t25);
+			acc0 = fma(s, t31, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1634,7 +1634,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y6_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
@@ -1647,20 +1647,20 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y6_fma(const double *x, const double *y, double 
 			const double t2 = b * b;
 			const double t3 = t2 * t2;
 			const double t4 = 0x1.5555555555555p0 /* 4/3 */ * t3;
-			const double t5 = fma(t1, 0x1.5555555555555p1 /* 8/3 */, t4);
+			const double t5 = fma(0x1.5555555555555p1 /* 8/3 */, t1, t4);
 			const double t6 = f * f;
 			const double t7 = t6 * t6;
-			const double t8 = fma(t7, 0x1.2492492492492p-1 /* 4/7 */, t5);
+			const double t8 = fma(0x1.2492492492492p-1 /* 4/7 */, t7, t5);
 			const double t9 = t2 * t1;
 			const double t10 = b * t2;
 			const double t11 = t10 * t10;
 			const double t12 = 0x1.5555555555555p-2 /* 1/3 */ * t11;
-			const double t13 = fma(t9, 0x1.aaaaaaaaaaaabp0 /* 5/3 */, t12);
+			const double t13 = fma(0x1.aaaaaaaaaaaabp0 /* 5/3 */, t9, t12);
 			const double t14 = t1 * t6;
 			const double t15 = t13 + t14;
 			const double t16 = f * t6;
 			const double t17 = t16 * t16;
-			const double t18 = fma(t17, 0x1.8618618618618p-5 /* 1/21 */, t15);
+			const double t18 = fma(0x1.8618618618618p-5 /* 1/21 */, t17, t15);
 			const double a = x0 + x1;
 			const double t19 = a * a;
 			const double t20 = t18 * t19;
@@ -1668,17 +1668,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y6_fma(const double *x, const double *y, double 
 			const double t21 = a * e;
 			const double t22 = t0 * t21;
 			const double t23 = fma(t8, t22, t20);
-			const double t24 = fma(t11, 0x1.c71c71c71c71cp-4 /* 1/9 */, t9);
-			const double t25 = fma(t14, 0x1.6db6db6db6db7p-1 /* 5/7 */, t24);
-			const double t26 = fma(t17, 0x1.2f684bda12f68p-5 /* 1/27 */, t25);
+			const double t24 = fma(0x1.c71c71c71c71cp-4 /* 1/9 */, t11, t9);
+			const double t25 = fma(0x1.6db6db6db6db7p-1 /* 5/7 */, t14, t24);
+			const double t26 = fma(0x1.2f684bda12f68p-5 /* 1/27 */, t17, t25);
 			const double t27 = e * e;
 			const double t28 = fma(t26, t27, t23);
 			const double t29 = x0 * y1;
-			const double t30 = y0 * x1;
-			const double t31 = t29 - t30;
-			acc0 = fma(t31, t28, acc0);
+			const double t30 = x1 * y0;
+			const double s = t29 - t30;
+			acc0 = fma(s, t28, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1689,7 +1689,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y7_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
@@ -1703,14 +1703,14 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y7_fma(const double *x, const double *y, double 
 			const double t3 = b * f;
 			const double t4 = t3 * t3;
 			const double t5 = t0 * t4;
-			const double t6 = fma(t2, 0x1.5555555555555p-2 /* 1/3 */, t5);
+			const double t6 = fma(0x1.5555555555555p-2 /* 1/3 */, t2, t5);
 			const double t7 = f * f;
 			const double t8 = t4 * t7;
-			const double t9 = fma(t8, 0x1.b6db6db6db6dbp-2 /* 3/7 */, t6);
+			const double t9 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t6);
 			const double t10 = f * t7;
 			const double t11 = t10 * t10;
-			const double t12 = fma(t11, 0x1.0410410410410p-6 /* 1/63 */, t9);
-			const double t13 = fma(t2, 0x1.2492492492492p-3 /* 1/7 */, t5);
+			const double t12 = fma(0x1.0410410410410p-6 /* 1/63 */, t11, t9);
+			const double t13 = fma(0x1.2492492492492p-3 /* 1/7 */, t2, t5);
 			const double t14 = t13 + t8;
 			const double t15 = fma(0x1.2492492492492p-3 /* 1/7 */, t11, t14);
 			const double a = x0 + x1;
@@ -1720,11 +1720,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y7_fma(const double *x, const double *y, double 
 			const double t18 = e * f;
 			const double t19 = fma(t12, t18, t17);
 			const double t20 = x0 * y1;
-			const double t21 = y0 * x1;
-			const double t22 = t20 - t21;
-			acc0 = fma(t22, t19, acc0);
+			const double t21 = x1 * y0;
+			const double s = t20 - t21;
+			acc0 = fma(s, t19, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1735,33 +1735,33 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y8_fma(const double *x, const double *y, double 
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = y0 + y1;
-			const double t4 = y1 * y1;
-			const double t5 = fma(y0, t3, t4);
-			const double t6 = y1 * t4;
-			const double t7 = fma(y0, t5, t6);
-			const double t8 = y1 * t6;
-			const double t9 = fma(y0, t7, t8);
-			const double t10 = y1 * t8;
-			const double t11 = fma(y0, t9, t10);
-			const double t12 = y1 * t10;
-			const double t13 = fma(y0, t11, t12);
-			const double t14 = y1 * t12;
-			const double t15 = fma(y0, t13, t14);
-			const double t16 = y0 * t15;
-			const double t17 = fma(y1, t14, t16);
-			acc0 = fma(t2, t17, acc0);
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = y0 + y1;
+			const double t3 = y1 * y1;
+			const double t4 = fma(t2, y0, t3);
+			const double t5 = t3 * y1;
+			const double t6 = fma(t4, y0, t5);
+			const double t7 = t5 * y1;
+			const double t8 = fma(t6, y0, t7);
+			const double t9 = t7 * y1;
+			const double t10 = fma(t8, y0, t9);
+			const double t11 = t9 * y1;
+			const double t12 = fma(t10, y0, t11);
+			const double t13 = t11 * y1;
+			const double t14 = fma(t12, y0, t13);
+			const double t15 = t14 * y0;
+			const double t16 = fma(t13, y1, t15);
+			acc0 = fma(s, t16, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 

@@ -16,18 +16,18 @@ void ew_ring_x0y0_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			acc0 = t2 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			acc0 = acc0 + s;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -38,20 +38,20 @@ void ew_ring_x1y0_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = x0 + x1;
-			const double t4 = t2 * t3;
-			acc0 = t4 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = x0 + x1;
+			const double t3 = s * t2;
+			acc0 = acc0 + t3;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -62,20 +62,20 @@ void ew_ring_x0y1_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = y0 + y1;
-			const double t4 = t2 * t3;
-			acc0 = t4 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = y0 + y1;
+			const double t3 = s * t2;
+			acc0 = acc0 + t3;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -86,23 +86,23 @@ void ew_ring_x2y0_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = x0 + x1;
-			const double t4 = x0 * t3;
-			const double t5 = x1 * x1;
-			const double t6 = t4 + t5;
-			const double t7 = t2 * t6;
-			acc0 = t7 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = x0 + x1;
+			const double t3 = t2 * x0;
+			const double t4 = x1 * x1;
+			const double t5 = t3 + t4;
+			const double t6 = s * t5;
+			acc0 = acc0 + t6;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -113,26 +113,26 @@ void ew_ring_x1y1_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = 2.0 * y0;
-			const double t4 = y1 + t3;
-			const double t5 = x0 * t4;
-			const double t6 = 2.0 * y1;
-			const double t7 = y0 + t6;
-			const double t8 = x1 * t7;
-			const double t9 = t5 + t8;
-			const double t10 = t2 * t9;
-			acc0 = t10 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = 2.0 * y0;
+			const double t3 = t2 + y1;
+			const double t4 = t3 * x0;
+			const double t5 = 2.0 * y1;
+			const double t6 = t5 + y0;
+			const double t7 = t6 * x1;
+			const double t8 = t4 + t7;
+			const double t9 = s * t8;
+			acc0 = acc0 + t9;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -143,23 +143,23 @@ void ew_ring_x0y2_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = y0 + y1;
-			const double t4 = y0 * t3;
-			const double t5 = y1 * y1;
-			const double t6 = t4 + t5;
-			const double t7 = t2 * t6;
-			acc0 = t7 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = y0 + y1;
+			const double t3 = t2 * y0;
+			const double t4 = y1 * y1;
+			const double t5 = t3 + t4;
+			const double t6 = s * t5;
+			acc0 = acc0 + t6;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -170,25 +170,25 @@ void ew_ring_x3y0_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
-			const double t3 = a * a;
-			const double t4 = e * e;
-			const double t5 = t3 + t4;
-			const double t6 = a * t5;
-			const double t7 = t2 * t6;
-			acc0 = t7 + acc0;
+			const double t2 = a * a;
+			const double t3 = e * e;
+			const double t4 = t2 + t3;
+			const double t5 = a * t4;
+			const double t6 = s * t5;
+			acc0 = acc0 + t6;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -199,32 +199,32 @@ void ew_ring_x2y1_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = 3.0 * t3;
-			const double t5 = e * e;
-			const double t6 = t4 + t5;
-			const double t7 = b * t6;
-			const double t8 = a * e;
-			const double t9 = f * t8;
-			const double t10 = 2.0 * t9;
-			const double t11 = t7 + t10;
-			const double t12 = t2 * t11;
-			acc0 = t12 + acc0;
+			const double t2 = a * a;
+			const double t3 = 3.0 * t2;
+			const double t4 = e * e;
+			const double t5 = t3 + t4;
+			const double t6 = b * t5;
+			const double t7 = a * e;
+			const double t8 = f * t7;
+			const double t9 = 2.0 * t8;
+			const double t10 = t6 + t9;
+			const double t11 = s * t10;
+			acc0 = acc0 + t11;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -235,32 +235,32 @@ void ew_ring_x1y2_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = 3.0 * t3;
-			const double t5 = f * f;
-			const double t6 = t4 + t5;
-			const double t7 = a * t6;
-			const double t8 = b * f;
-			const double t9 = e * t8;
-			const double t10 = 2.0 * t9;
-			const double t11 = t7 + t10;
-			const double t12 = t2 * t11;
-			acc0 = t12 + acc0;
+			const double t2 = b * b;
+			const double t3 = 3.0 * t2;
+			const double t4 = f * f;
+			const double t5 = t3 + t4;
+			const double t6 = a * t5;
+			const double t7 = b * f;
+			const double t8 = e * t7;
+			const double t9 = 2.0 * t8;
+			const double t10 = t6 + t9;
+			const double t11 = s * t10;
+			acc0 = acc0 + t11;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -271,25 +271,25 @@ void ew_ring_x0y3_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = f * f;
-			const double t5 = t3 + t4;
-			const double t6 = b * t5;
-			const double t7 = t2 * t6;
-			acc0 = t7 + acc0;
+			const double t2 = b * b;
+			const double t3 = f * f;
+			const double t4 = t2 + t3;
+			const double t5 = b * t4;
+			const double t6 = s * t5;
+			acc0 = acc0 + t6;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -300,29 +300,29 @@ void ew_ring_x4y0_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = x0 + x1;
-			const double t4 = x0 * t3;
-			const double t5 = x1 * x1;
-			const double t6 = t4 + t5;
-			const double t7 = x0 * t6;
-			const double t8 = x1 * t5;
-			const double t9 = t7 + t8;
-			const double t10 = x0 * t9;
-			const double t11 = x1 * t8;
-			const double t12 = t10 + t11;
-			const double t13 = t2 * t12;
-			acc0 = t13 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = x0 + x1;
+			const double t3 = t2 * x0;
+			const double t4 = x1 * x1;
+			const double t5 = t3 + t4;
+			const double t6 = t5 * x0;
+			const double t7 = t4 * x1;
+			const double t8 = t6 + t7;
+			const double t9 = t8 * x0;
+			const double t10 = t7 * x1;
+			const double t11 = t9 + t10;
+			const double t12 = s * t11;
+			acc0 = acc0 + t12;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -333,33 +333,33 @@ void ew_ring_x3y1_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = e * e;
-			const double t5 = t3 + t4;
-			const double t6 = a * b;
-			const double t7 = t5 * t6;
-			const double t8 = 0x1.999999999999ap-3 /* 1/5 */ * t4;
-			const double t9 = t3 + t8;
-			const double t10 = e * f;
-			const double t11 = t9 * t10;
-			const double t12 = t7 + t11;
-			const double t13 = t2 * t12;
-			acc0 = t13 + acc0;
+			const double t2 = a * a;
+			const double t3 = e * e;
+			const double t4 = t2 + t3;
+			const double t5 = a * b;
+			const double t6 = t4 * t5;
+			const double t7 = 0x1.999999999999ap-3 /* 1/5 */ * t3;
+			const double t8 = t2 + t7;
+			const double t9 = e * f;
+			const double t10 = t8 * t9;
+			const double t11 = t6 + t10;
+			const double t12 = s * t11;
+			acc0 = acc0 + t12;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -370,39 +370,39 @@ void ew_ring_x2y2_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = 3.0 * t3;
-			const double t5 = f * f;
-			const double t6 = t4 + t5;
-			const double t7 = a * a;
-			const double t8 = t6 * t7;
-			const double t9 = a * e;
-			const double t10 = b * f;
-			const double t11 = t9 * t10;
-			const double t12 = 4.0 * t11;
-			const double t13 = t8 + t12;
-			const double t14 = 0x1.3333333333333p-1 /* 3/5 */ * t5;
-			const double t15 = t3 + t14;
-			const double t16 = e * e;
-			const double t17 = t15 * t16;
-			const double t18 = t13 + t17;
-			const double t19 = t2 * t18;
-			acc0 = t19 + acc0;
+			const double t2 = b * b;
+			const double t3 = 3.0 * t2;
+			const double t4 = f * f;
+			const double t5 = t3 + t4;
+			const double t6 = a * a;
+			const double t7 = t5 * t6;
+			const double t8 = a * e;
+			const double t9 = b * f;
+			const double t10 = t8 * t9;
+			const double t11 = 4.0 * t10;
+			const double t12 = t7 + t11;
+			const double t13 = 0x1.3333333333333p-1 /* 3/5 */ * t4;
+			const double t14 = t2 + t13;
+			const double t15 = e * e;
+			const double t16 = t14 * t15;
+			const double t17 = t12 + t16;
+			const double t18 = s * t17;
+			acc0 = acc0 + t18;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -413,33 +413,33 @@ void ew_ring_x1y3_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = f * f;
-			const double t5 = t3 + t4;
-			const double t6 = a * b;
-			const double t7 = t5 * t6;
-			const double t8 = 0x1.999999999999ap-3 /* 1/5 */ * t4;
-			const double t9 = t3 + t8;
-			const double t10 = e * f;
-			const double t11 = t9 * t10;
-			const double t12 = t7 + t11;
-			const double t13 = t2 * t12;
-			acc0 = t13 + acc0;
+			const double t2 = b * b;
+			const double t3 = f * f;
+			const double t4 = t2 + t3;
+			const double t5 = a * b;
+			const double t6 = t4 * t5;
+			const double t7 = 0x1.999999999999ap-3 /* 1/5 */ * t3;
+			const double t8 = t2 + t7;
+			const double t9 = e * f;
+			const double t10 = t8 * t9;
+			const double t11 = t6 + t10;
+			const double t12 = s * t11;
+			acc0 = acc0 + t12;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -450,29 +450,29 @@ void ew_ring_x0y4_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = y0 + y1;
-			const double t4 = y0 * t3;
-			const double t5 = y1 * y1;
-			const double t6 = t4 + t5;
-			const double t7 = y0 * t6;
-			const double t8 = y1 * t5;
-			const double t9 = t7 + t8;
-			const double t10 = y0 * t9;
-			const double t11 = y1 * t8;
-			const double t12 = t10 + t11;
-			const double t13 = t2 * t12;
-			acc0 = t13 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = y0 + y1;
+			const double t3 = t2 * y0;
+			const double t4 = y1 * y1;
+			const double t5 = t3 + t4;
+			const double t6 = t5 * y0;
+			const double t7 = t4 * y1;
+			const double t8 = t6 + t7;
+			const double t9 = t8 * y0;
+			const double t10 = t7 * y1;
+			const double t11 = t9 + t10;
+			const double t12 = s * t11;
+			acc0 = acc0 + t12;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -483,32 +483,32 @@ void ew_ring_x5y0_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = x0 + x1;
-			const double t4 = x0 * t3;
-			const double t5 = x1 * x1;
-			const double t6 = t4 + t5;
-			const double t7 = x0 * t6;
-			const double t8 = x1 * t5;
-			const double t9 = t7 + t8;
-			const double t10 = x0 * t9;
-			const double t11 = x1 * t8;
-			const double t12 = t10 + t11;
-			const double t13 = x0 * t12;
-			const double t14 = x1 * t11;
-			const double t15 = t13 + t14;
-			const double t16 = t2 * t15;
-			acc0 = t16 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = x0 + x1;
+			const double t3 = t2 * x0;
+			const double t4 = x1 * x1;
+			const double t5 = t3 + t4;
+			const double t6 = t5 * x0;
+			const double t7 = t4 * x1;
+			const double t8 = t6 + t7;
+			const double t9 = t8 * x0;
+			const double t10 = t7 * x1;
+			const double t11 = t9 + t10;
+			const double t12 = t11 * x0;
+			const double t13 = t10 * x1;
+			const double t14 = t12 + t13;
+			const double t15 = s * t14;
+			acc0 = acc0 + t15;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -519,40 +519,40 @@ void ew_ring_x4y1_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = t3 * t3;
-			const double t5 = a * e;
-			const double t6 = t5 * t5;
-			const double t7 = 2.0 * t6;
-			const double t8 = t4 + t7;
-			const double t9 = e * e;
-			const double t10 = t9 * t9;
-			const double t11 = 0x1.999999999999ap-3 /* 1/5 */ * t10;
-			const double t12 = t8 + t11;
-			const double t13 = b * t12;
-			const double t14 = 0x1.5555555555555p0 /* 4/3 */ * t3;
-			const double t15 = 0x1.999999999999ap-1 /* 4/5 */ * t9;
-			const double t16 = t14 + t15;
-			const double t17 = f * t5;
-			const double t18 = t16 * t17;
-			const double t19 = t13 + t18;
-			const double t20 = t2 * t19;
-			acc0 = t20 + acc0;
+			const double t2 = a * a;
+			const double t3 = t2 * t2;
+			const double t4 = a * e;
+			const double t5 = t4 * t4;
+			const double t6 = 2.0 * t5;
+			const double t7 = t3 + t6;
+			const double t8 = e * e;
+			const double t9 = t8 * t8;
+			const double t10 = 0x1.999999999999ap-3 /* 1/5 */ * t9;
+			const double t11 = t7 + t10;
+			const double t12 = b * t11;
+			const double t13 = 0x1.5555555555555p0 /* 4/3 */ * t2;
+			const double t14 = 0x1.999999999999ap-1 /* 4/5 */ * t8;
+			const double t15 = t13 + t14;
+			const double t16 = f * t4;
+			const double t17 = t15 * t16;
+			const double t18 = t12 + t17;
+			const double t19 = s * t18;
+			acc0 = acc0 + t19;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -563,43 +563,43 @@ void ew_ring_x3y2_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = e * e;
-			const double t5 = t3 + t4;
-			const double t6 = b * b;
-			const double t7 = a * t6;
-			const double t8 = t5 * t7;
-			const double t9 = 0x1.5555555555555p-2 /* 1/3 */ * t3;
-			const double t10 = 0x1.3333333333333p-1 /* 3/5 */ * t4;
-			const double t11 = t9 + t10;
-			const double t12 = f * f;
-			const double t13 = a * t12;
-			const double t14 = t11 * t13;
-			const double t15 = t8 + t14;
-			const double t16 = 2.0 * t3;
-			const double t17 = 0x1.999999999999ap-2 /* 2/5 */ * t4;
-			const double t18 = t16 + t17;
-			const double t19 = b * f;
-			const double t20 = e * t19;
-			const double t21 = t18 * t20;
-			const double t22 = t15 + t21;
-			const double t23 = t2 * t22;
-			acc0 = t23 + acc0;
+			const double t2 = a * a;
+			const double t3 = e * e;
+			const double t4 = t2 + t3;
+			const double t5 = b * b;
+			const double t6 = a * t5;
+			const double t7 = t4 * t6;
+			const double t8 = 0x1.5555555555555p-2 /* 1/3 */ * t2;
+			const double t9 = 0x1.3333333333333p-1 /* 3/5 */ * t3;
+			const double t10 = t8 + t9;
+			const double t11 = f * f;
+			const double t12 = a * t11;
+			const double t13 = t10 * t12;
+			const double t14 = t7 + t13;
+			const double t15 = 2.0 * t2;
+			const double t16 = 0x1.999999999999ap-2 /* 2/5 */ * t3;
+			const double t17 = t15 + t16;
+			const double t18 = b * f;
+			const double t19 = e * t18;
+			const double t20 = t17 * t19;
+			const double t21 = t14 + t20;
+			const double t22 = s * t21;
+			acc0 = acc0 + t22;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -610,43 +610,43 @@ void ew_ring_x2y3_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = f * f;
-			const double t5 = t3 + t4;
-			const double t6 = a * a;
-			const double t7 = b * t6;
-			const double t8 = t5 * t7;
-			const double t9 = 2.0 * t3;
-			const double t10 = 0x1.999999999999ap-2 /* 2/5 */ * t4;
-			const double t11 = t9 + t10;
-			const double t12 = a * e;
-			const double t13 = f * t12;
-			const double t14 = t11 * t13;
-			const double t15 = t8 + t14;
-			const double t16 = 0x1.5555555555555p-2 /* 1/3 */ * t3;
-			const double t17 = 0x1.3333333333333p-1 /* 3/5 */ * t4;
-			const double t18 = t16 + t17;
-			const double t19 = e * e;
-			const double t20 = b * t19;
-			const double t21 = t18 * t20;
-			const double t22 = t15 + t21;
-			const double t23 = t2 * t22;
-			acc0 = t23 + acc0;
+			const double t2 = b * b;
+			const double t3 = f * f;
+			const double t4 = t2 + t3;
+			const double t5 = a * a;
+			const double t6 = b * t5;
+			const double t7 = t4 * t6;
+			const double t8 = 2.0 * t2;
+			const double t9 = 0x1.999999999999ap-2 /* 2/5 */ * t3;
+			const double t10 = t8 + t9;
+			const double t11 = a * e;
+			const double t12 = f * t11;
+			const double t13 = t10 * t12;
+			const double t14 = t7 + t13;
+			const double t15 = 0x1.5555555555555p-2 /* 1/3 */ * t2;
+			const double t16 = 0x1.3333333333333p-1 /* 3/5 */ * t3;
+			const double t17 = t15 + t16;
+			const double t18 = e * e;
+			const double t19 = b * t18;
+			const double t20 = t17 * t19;
+			const double t21 = t14 + t20;
+			const double t22 = s * t21;
+			acc0 = acc0 + t22;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -657,40 +657,40 @@ void ew_ring_x1y4_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = t3 * t3;
-			const double t5 = b * f;
-			const double t6 = t5 * t5;
-			const double t7 = 2.0 * t6;
-			const double t8 = t4 + t7;
-			const double t9 = f * f;
-			const double t10 = t9 * t9;
-			const double t11 = 0x1.999999999999ap-3 /* 1/5 */ * t10;
-			const double t12 = t8 + t11;
-			const double t13 = a * t12;
-			const double t14 = 0x1.5555555555555p0 /* 4/3 */ * t3;
-			const double t15 = 0x1.999999999999ap-1 /* 4/5 */ * t9;
-			const double t16 = t14 + t15;
-			const double t17 = e * t5;
-			const double t18 = t16 * t17;
-			const double t19 = t13 + t18;
-			const double t20 = t2 * t19;
-			acc0 = t20 + acc0;
+			const double t2 = b * b;
+			const double t3 = t2 * t2;
+			const double t4 = b * f;
+			const double t5 = t4 * t4;
+			const double t6 = 2.0 * t5;
+			const double t7 = t3 + t6;
+			const double t8 = f * f;
+			const double t9 = t8 * t8;
+			const double t10 = 0x1.999999999999ap-3 /* 1/5 */ * t9;
+			const double t11 = t7 + t10;
+			const double t12 = a * t11;
+			const double t13 = 0x1.5555555555555p0 /* 4/3 */ * t2;
+			const double t14 = 0x1.999999999999ap-1 /* 4/5 */ * t8;
+			const double t15 = t13 + t14;
+			const double t16 = e * t4;
+			const double t17 = t15 * t16;
+			const double t18 = t12 + t17;
+			const double t19 = s * t18;
+			acc0 = acc0 + t19;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -701,32 +701,32 @@ void ew_ring_x0y5_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = y0 + y1;
-			const double t4 = y0 * t3;
-			const double t5 = y1 * y1;
-			const double t6 = t4 + t5;
-			const double t7 = y0 * t6;
-			const double t8 = y1 * t5;
-			const double t9 = t7 + t8;
-			const double t10 = y0 * t9;
-			const double t11 = y1 * t8;
-			const double t12 = t10 + t11;
-			const double t13 = y0 * t12;
-			const double t14 = y1 * t11;
-			const double t15 = t13 + t14;
-			const double t16 = t2 * t15;
-			acc0 = t16 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = y0 + y1;
+			const double t3 = t2 * y0;
+			const double t4 = y1 * y1;
+			const double t5 = t3 + t4;
+			const double t6 = t5 * y0;
+			const double t7 = t4 * y1;
+			const double t8 = t6 + t7;
+			const double t9 = t8 * y0;
+			const double t10 = t7 * y1;
+			const double t11 = t9 + t10;
+			const double t12 = t11 * y0;
+			const double t13 = t10 * y1;
+			const double t14 = t12 + t13;
+			const double t15 = s * t14;
+			acc0 = acc0 + t15;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -737,35 +737,35 @@ void ew_ring_x6y0_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = x0 + x1;
-			const double t4 = x0 * t3;
-			const double t5 = x1 * x1;
-			const double t6 = t4 + t5;
-			const double t7 = x0 * t6;
-			const double t8 = x1 * t5;
-			const double t9 = t7 + t8;
-			const double t10 = x0 * t9;
-			const double t11 = x1 * t8;
-			const double t12 = t10 + t11;
-			const double t13 = x0 * t12;
-			const double t14 = x1 * t11;
-			const double t15 = t13 + t14;
-			const double t16 = x0 * t15;
-			const double t17 = x1 * t14;
-			const double t18 = t16 + t17;
-			const double t19 = t2 * t18;
-			acc0 = t19 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = x0 + x1;
+			const double t3 = t2 * x0;
+			const double t4 = x1 * x1;
+			const double t5 = t3 + t4;
+			const double t6 = t5 * x0;
+			const double t7 = t4 * x1;
+			const double t8 = t6 + t7;
+			const double t9 = t8 * x0;
+			const double t10 = t7 * x1;
+			const double t11 = t9 + t10;
+			const double t12 = t11 * x0;
+			const double t13 = t10 * x1;
+			const double t14 = t12 + t13;
+			const double t15 = t14 * x0;
+			const double t16 = t13 * x1;
+			const double t17 = t15 + t16;
+			const double t18 = s * t17;
+			acc0 = acc0 + t18;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -776,42 +776,42 @@ void ew_ring_x5y1_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = t3 * t3;
-			const double t5 = a * e;
-			const double t6 = t5 * t5;
-			const double t7 = 0x1.aaaaaaaaaaaabp1 /* 10/3 */ * t6;
-			const double t8 = t4 + t7;
-			const double t9 = e * e;
-			const double t10 = t9 * t9;
-			const double t11 = t8 + t10;
-			const double t12 = a * b;
-			const double t13 = t11 * t12;
-			const double t14 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t4;
-			const double t15 = 2.0 * t6;
-			const double t16 = t14 + t15;
-			const double t17 = 0x1.2492492492492p-3 /* 1/7 */ * t10;
-			const double t18 = t16 + t17;
-			const double t19 = e * f;
-			const double t20 = t18 * t19;
-			const double t21 = t13 + t20;
-			const double t22 = t2 * t21;
-			acc0 = t22 + acc0;
+			const double t2 = a * a;
+			const double t3 = t2 * t2;
+			const double t4 = a * e;
+			const double t5 = t4 * t4;
+			const double t6 = 0x1.aaaaaaaaaaaabp1 /* 10/3 */ * t5;
+			const double t7 = t3 + t6;
+			const double t8 = e * e;
+			const double t9 = t8 * t8;
+			const double t10 = t7 + t9;
+			const double t11 = a * b;
+			const double t12 = t10 * t11;
+			const double t13 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t3;
+			const double t14 = 2.0 * t5;
+			const double t15 = t13 + t14;
+			const double t16 = 0x1.2492492492492p-3 /* 1/7 */ * t9;
+			const double t17 = t15 + t16;
+			const double t18 = e * f;
+			const double t19 = t17 * t18;
+			const double t20 = t12 + t19;
+			const double t21 = s * t20;
+			acc0 = acc0 + t21;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -822,50 +822,50 @@ void ew_ring_x4y2_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = t3 * t3;
-			const double t5 = a * e;
-			const double t6 = t5 * t5;
-			const double t7 = 2.0 * t6;
-			const double t8 = t4 + t7;
-			const double t9 = e * e;
-			const double t10 = t9 * t9;
-			const double t11 = 0x1.999999999999ap-3 /* 1/5 */ * t10;
-			const double t12 = t8 + t11;
-			const double t13 = b * b;
-			const double t14 = t12 * t13;
-			const double t15 = 0x1.5555555555555p-2 /* 1/3 */ * t4;
-			const double t16 = 0x1.3333333333333p0 /* 6/5 */ * t6;
-			const double t17 = t15 + t16;
-			const double t18 = 0x1.2492492492492p-3 /* 1/7 */ * t10;
-			const double t19 = t17 + t18;
-			const double t20 = f * f;
-			const double t21 = t19 * t20;
-			const double t22 = t14 + t21;
-			const double t23 = 0x1.5555555555555p1 /* 8/3 */ * t3;
-			const double t24 = 0x1.999999999999ap0 /* 8/5 */ * t9;
-			const double t25 = t23 + t24;
-			const double t26 = b * f;
-			const double t27 = t5 * t26;
-			const double t28 = t25 * t27;
-			const double t29 = t22 + t28;
-			const double t30 = t2 * t29;
-			acc0 = t30 + acc0;
+			const double t2 = a * a;
+			const double t3 = t2 * t2;
+			const double t4 = a * e;
+			const double t5 = t4 * t4;
+			const double t6 = 2.0 * t5;
+			const double t7 = t3 + t6;
+			const double t8 = e * e;
+			const double t9 = t8 * t8;
+			const double t10 = 0x1.999999999999ap-3 /* 1/5 */ * t9;
+			const double t11 = t7 + t10;
+			const double t12 = b * b;
+			const double t13 = t11 * t12;
+			const double t14 = 0x1.5555555555555p-2 /* 1/3 */ * t3;
+			const double t15 = 0x1.3333333333333p0 /* 6/5 */ * t5;
+			const double t16 = t14 + t15;
+			const double t17 = 0x1.2492492492492p-3 /* 1/7 */ * t9;
+			const double t18 = t16 + t17;
+			const double t19 = f * f;
+			const double t20 = t18 * t19;
+			const double t21 = t13 + t20;
+			const double t22 = 0x1.5555555555555p1 /* 8/3 */ * t2;
+			const double t23 = 0x1.999999999999ap0 /* 8/5 */ * t8;
+			const double t24 = t22 + t23;
+			const double t25 = b * f;
+			const double t26 = t4 * t25;
+			const double t27 = t24 * t26;
+			const double t28 = t21 + t27;
+			const double t29 = s * t28;
+			acc0 = acc0 + t29;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -876,52 +876,52 @@ void ew_ring_x3y3_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t3;
-			const double t5 = f * f;
-			const double t6 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t5;
-			const double t7 = t4 + t6;
-			const double t8 = a * a;
-			const double t9 = a * t8;
-			const double t10 = b * t9;
-			const double t11 = t7 * t10;
-			const double t12 = 5.0 * t3;
-			const double t13 = t5 + t12;
-			const double t14 = a * e;
-			const double t15 = a * t14;
-			const double t16 = f * t15;
-			const double t17 = t13 * t16;
-			const double t18 = t11 + t17;
-			const double t19 = 3.0 * t5;
-			const double t20 = t4 + t19;
-			const double t21 = e * t14;
-			const double t22 = b * t21;
-			const double t23 = t20 * t22;
-			const double t24 = t18 + t23;
-			const double t25 = 0x1.e79e79e79e79ep-3 /* 5/21 */ * t5;
-			const double t26 = t3 + t25;
-			const double t27 = e * e;
-			const double t28 = e * t27;
-			const double t29 = f * t28;
-			const double t30 = t26 * t29;
-			const double t31 = t24 + t30;
-			const double t32 = t2 * t31;
-			acc0 = t32 + acc0;
+			const double t2 = b * b;
+			const double t3 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t2;
+			const double t4 = f * f;
+			const double t5 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t4;
+			const double t6 = t3 + t5;
+			const double t7 = a * a;
+			const double t8 = a * t7;
+			const double t9 = b * t8;
+			const double t10 = t6 * t9;
+			const double t11 = 5.0 * t2;
+			const double t12 = t4 + t11;
+			const double t13 = a * e;
+			const double t14 = a * t13;
+			const double t15 = f * t14;
+			const double t16 = t12 * t15;
+			const double t17 = t10 + t16;
+			const double t18 = 3.0 * t4;
+			const double t19 = t3 + t18;
+			const double t20 = e * t13;
+			const double t21 = b * t20;
+			const double t22 = t19 * t21;
+			const double t23 = t17 + t22;
+			const double t24 = 0x1.e79e79e79e79ep-3 /* 5/21 */ * t4;
+			const double t25 = t2 + t24;
+			const double t26 = e * e;
+			const double t27 = e * t26;
+			const double t28 = f * t27;
+			const double t29 = t25 * t28;
+			const double t30 = t23 + t29;
+			const double t31 = s * t30;
+			acc0 = acc0 + t31;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -932,50 +932,50 @@ void ew_ring_x2y4_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = t3 * t3;
-			const double t5 = b * f;
-			const double t6 = t5 * t5;
-			const double t7 = 2.0 * t6;
-			const double t8 = t4 + t7;
-			const double t9 = f * f;
-			const double t10 = t9 * t9;
-			const double t11 = 0x1.999999999999ap-3 /* 1/5 */ * t10;
-			const double t12 = t8 + t11;
-			const double t13 = a * a;
-			const double t14 = t12 * t13;
-			const double t15 = 0x1.5555555555555p1 /* 8/3 */ * t3;
-			const double t16 = 0x1.999999999999ap0 /* 8/5 */ * t9;
-			const double t17 = t15 + t16;
-			const double t18 = a * e;
-			const double t19 = t5 * t18;
-			const double t20 = t17 * t19;
-			const double t21 = t14 + t20;
-			const double t22 = 0x1.5555555555555p-2 /* 1/3 */ * t4;
-			const double t23 = 0x1.3333333333333p0 /* 6/5 */ * t6;
-			const double t24 = t22 + t23;
-			const double t25 = 0x1.2492492492492p-3 /* 1/7 */ * t10;
-			const double t26 = t24 + t25;
-			const double t27 = e * e;
-			const double t28 = t26 * t27;
-			const double t29 = t21 + t28;
-			const double t30 = t2 * t29;
-			acc0 = t30 + acc0;
+			const double t2 = b * b;
+			const double t3 = t2 * t2;
+			const double t4 = b * f;
+			const double t5 = t4 * t4;
+			const double t6 = 2.0 * t5;
+			const double t7 = t3 + t6;
+			const double t8 = f * f;
+			const double t9 = t8 * t8;
+			const double t10 = 0x1.999999999999ap-3 /* 1/5 */ * t9;
+			const double t11 = t7 + t10;
+			const double t12 = a * a;
+			const double t13 = t11 * t12;
+			const double t14 = 0x1.5555555555555p1 /* 8/3 */ * t2;
+			const double t15 = 0x1.999999999999ap0 /* 8/5 */ * t8;
+			const double t16 = t14 + t15;
+			const double t17 = a * e;
+			const double t18 = t4 * t17;
+			const double t19 = t16 * t18;
+			const double t20 = t13 + t19;
+			const double t21 = 0x1.5555555555555p-2 /* 1/3 */ * t3;
+			const double t22 = 0x1.3333333333333p0 /* 6/5 */ * t5;
+			const double t23 = t21 + t22;
+			const double t24 = 0x1.2492492492492p-3 /* 1/7 */ * t9;
+			const double t25 = t23 + t24;
+			const double t26 = e * e;
+			const double t27 = t25 * t26;
+			const double t28 = t20 + t27;
+			const double t29 = s * t28;
+			acc0 = acc0 + t29;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -986,42 +986,42 @@ void ew_ring_x1y5_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = t3 * t3;
-			const double t5 = b * f;
-			const double t6 = t5 * t5;
-			const double t7 = 0x1.aaaaaaaaaaaabp1 /* 10/3 */ * t6;
-			const double t8 = t4 + t7;
-			const double t9 = f * f;
-			const double t10 = t9 * t9;
-			const double t11 = t8 + t10;
-			const double t12 = a * b;
-			const double t13 = t11 * t12;
-			const double t14 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t4;
-			const double t15 = 2.0 * t6;
-			const double t16 = t14 + t15;
-			const double t17 = 0x1.2492492492492p-3 /* 1/7 */ * t10;
-			const double t18 = t16 + t17;
-			const double t19 = e * f;
-			const double t20 = t18 * t19;
-			const double t21 = t13 + t20;
-			const double t22 = t2 * t21;
-			acc0 = t22 + acc0;
+			const double t2 = b * b;
+			const double t3 = t2 * t2;
+			const double t4 = b * f;
+			const double t5 = t4 * t4;
+			const double t6 = 0x1.aaaaaaaaaaaabp1 /* 10/3 */ * t5;
+			const double t7 = t3 + t6;
+			const double t8 = f * f;
+			const double t9 = t8 * t8;
+			const double t10 = t7 + t9;
+			const double t11 = a * b;
+			const double t12 = t10 * t11;
+			const double t13 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t3;
+			const double t14 = 2.0 * t5;
+			const double t15 = t13 + t14;
+			const double t16 = 0x1.2492492492492p-3 /* 1/7 */ * t9;
+			const double t17 = t15 + t16;
+			const double t18 = e * f;
+			const double t19 = t17 * t18;
+			const double t20 = t12 + t19;
+			const double t21 = s * t20;
+			acc0 = acc0 + t21;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1032,35 +1032,35 @@ void ew_ring_x0y6_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = y0 + y1;
-			const double t4 = y0 * t3;
-			const double t5 = y1 * y1;
-			const double t6 = t4 + t5;
-			const double t7 = y0 * t6;
-			const double t8 = y1 * t5;
-			const double t9 = t7 + t8;
-			const double t10 = y0 * t9;
-			const double t11 = y1 * t8;
-			const double t12 = t10 + t11;
-			const double t13 = y0 * t12;
-			const double t14 = y1 * t11;
-			const double t15 = t13 + t14;
-			const double t16 = y0 * t15;
-			const double t17 = y1 * t14;
-			const double t18 = t16 + t17;
-			const double t19 = t2 * t18;
-			acc0 = t19 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = y0 + y1;
+			const double t3 = t2 * y0;
+			const double t4 = y1 * y1;
+			const double t5 = t3 + t4;
+			const double t6 = t5 * y0;
+			const double t7 = t4 * y1;
+			const double t8 = t6 + t7;
+			const double t9 = t8 * y0;
+			const double t10 = t7 * y1;
+			const double t11 = t9 + t10;
+			const double t12 = t11 * y0;
+			const double t13 = t10 * y1;
+			const double t14 = t12 + t13;
+			const double t15 = t14 * y0;
+			const double t16 = t13 * y1;
+			const double t17 = t15 + t16;
+			const double t18 = s * t17;
+			acc0 = acc0 + t18;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1071,38 +1071,38 @@ void ew_ring_x7y0_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = x0 + x1;
-			const double t4 = x0 * t3;
-			const double t5 = x1 * x1;
-			const double t6 = t4 + t5;
-			const double t7 = x0 * t6;
-			const double t8 = x1 * t5;
-			const double t9 = t7 + t8;
-			const double t10 = x0 * t9;
-			const double t11 = x1 * t8;
-			const double t12 = t10 + t11;
-			const double t13 = x0 * t12;
-			const double t14 = x1 * t11;
-			const double t15 = t13 + t14;
-			const double t16 = x0 * t15;
-			const double t17 = x1 * t14;
-			const double t18 = t16 + t17;
-			const double t19 = x0 * t18;
-			const double t20 = x1 * t17;
-			const double t21 = t19 + t20;
-			const double t22 = t2 * t21;
-			acc0 = t22 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = x0 + x1;
+			const double t3 = t2 * x0;
+			const double t4 = x1 * x1;
+			const double t5 = t3 + t4;
+			const double t6 = t5 * x0;
+			const double t7 = t4 * x1;
+			const double t8 = t6 + t7;
+			const double t9 = t8 * x0;
+			const double t10 = t7 * x1;
+			const double t11 = t9 + t10;
+			const double t12 = t11 * x0;
+			const double t13 = t10 * x1;
+			const double t14 = t12 + t13;
+			const double t15 = t14 * x0;
+			const double t16 = t13 * x1;
+			const double t17 = t15 + t16;
+			const double t18 = t17 * x0;
+			const double t19 = t16 * x1;
+			const double t20 = t18 + t19;
+			const double t21 = s * t20;
+			acc0 = acc0 + t21;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1113,7 +1113,7 @@ void ew_ring_x6y1_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
@@ -1151,12 +1151,12 @@ void ew_ring_x6y1_portable(const double *x, const double *y, double cx, size_t c
 			const double t25 = t23 * t24;
 			const double t26 = t16 + t25;
 			const double t27 = x0 * y1;
-			const double t28 = y0 * x1;
-			const double t29 = t27 - t28;
-			const double t30 = t29 * t26;
-			acc0 = t30 + acc0;
+			const double t28 = x1 * y0;
+			const double s = t27 - t28;
+			const double t29 = s * t26;
+			acc0 = acc0 + t29;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1167,53 +1167,53 @@ void ew_ring_x5y2_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = t3 * t3;
-			const double t5 = 0x1.3333333333333p-2 /* 3/10 */ * t4;
-			const double t6 = a * e;
-			const double t7 = t6 * t6;
-			const double t8 = t5 + t7;
-			const double t9 = e * e;
-			const double t10 = t9 * t9;
-			const double t11 = 0x1.3333333333333p-2 /* 3/10 */ * t10;
-			const double t12 = t8 + t11;
-			const double t13 = b * b;
-			const double t14 = a * t13;
-			const double t15 = t12 * t14;
-			const double t16 = 0x1.999999999999ap-4 /* 1/10 */ * t4;
-			const double t17 = 0x1.3333333333333p-1 /* 3/5 */ * t7;
-			const double t18 = t16 + t17;
-			const double t19 = 0x1.b6db6db6db6dbp-3 /* 3/14 */ * t10;
-			const double t20 = t18 + t19;
-			const double t21 = f * f;
-			const double t22 = a * t21;
-			const double t23 = t20 * t22;
-			const double t24 = t15 + t23;
-			const double t25 = 0x1.3333333333333p0 /* 6/5 */ * t7;
-			const double t26 = t4 + t25;
-			const double t27 = 0x1.5f15f15f15f16p-4 /* 3/35 */ * t10;
-			const double t28 = t26 + t27;
-			const double t29 = b * f;
-			const double t30 = e * t29;
-			const double t31 = t28 * t30;
-			const double t32 = t24 + t31;
-			const double t33 = t2 * t32;
-			acc0 = t33 + acc0;
+			const double t2 = a * a;
+			const double t3 = t2 * t2;
+			const double t4 = 0x1.3333333333333p-2 /* 3/10 */ * t3;
+			const double t5 = a * e;
+			const double t6 = t5 * t5;
+			const double t7 = t4 + t6;
+			const double t8 = e * e;
+			const double t9 = t8 * t8;
+			const double t10 = 0x1.3333333333333p-2 /* 3/10 */ * t9;
+			const double t11 = t7 + t10;
+			const double t12 = b * b;
+			const double t13 = a * t12;
+			const double t14 = t11 * t13;
+			const double t15 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
+			const double t16 = 0x1.3333333333333p-1 /* 3/5 */ * t6;
+			const double t17 = t15 + t16;
+			const double t18 = 0x1.b6db6db6db6dbp-3 /* 3/14 */ * t9;
+			const double t19 = t17 + t18;
+			const double t20 = f * f;
+			const double t21 = a * t20;
+			const double t22 = t19 * t21;
+			const double t23 = t14 + t22;
+			const double t24 = 0x1.3333333333333p0 /* 6/5 */ * t6;
+			const double t25 = t3 + t24;
+			const double t26 = 0x1.5f15f15f15f16p-4 /* 3/35 */ * t9;
+			const double t27 = t25 + t26;
+			const double t28 = b * f;
+			const double t29 = e * t28;
+			const double t30 = t27 * t29;
+			const double t31 = t23 + t30;
+			const double t32 = s * t31;
+			acc0 = acc0 + t32;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1224,59 +1224,59 @@ void ew_ring_x4y3_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = t3 * t3;
-			const double t5 = a * e;
-			const double t6 = t5 * t5;
-			const double t7 = 2.0 * t6;
-			const double t8 = t4 + t7;
-			const double t9 = e * e;
-			const double t10 = t9 * t9;
-			const double t11 = 0x1.999999999999ap-3 /* 1/5 */ * t10;
-			const double t12 = t8 + t11;
-			const double t13 = b * b;
-			const double t14 = b * t13;
-			const double t15 = t12 * t14;
-			const double t16 = 0x1.ccccccccccccdp1 /* 18/5 */ * t6;
-			const double t17 = t4 + t16;
-			const double t18 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t10;
-			const double t19 = t17 + t18;
-			const double t20 = b * f;
-			const double t21 = f * t20;
-			const double t22 = t19 * t21;
-			const double t23 = t15 + t22;
-			const double t24 = 4.0 * t3;
-			const double t25 = 0x1.3333333333333p1 /* 12/5 */ * t9;
-			const double t26 = t24 + t25;
-			const double t27 = b * t20;
-			const double t28 = t5 * t27;
-			const double t29 = t26 * t28;
-			const double t30 = t23 + t29;
-			const double t31 = 0x1.999999999999ap-1 /* 4/5 */ * t3;
-			const double t32 = 0x1.2492492492492p-1 /* 4/7 */ * t9;
-			const double t33 = t31 + t32;
-			const double t34 = f * f;
-			const double t35 = f * t34;
-			const double t36 = t5 * t35;
-			const double t37 = t33 * t36;
-			const double t38 = t30 + t37;
-			const double t39 = t2 * t38;
-			acc0 = t39 + acc0;
+			const double t2 = a * a;
+			const double t3 = t2 * t2;
+			const double t4 = a * e;
+			const double t5 = t4 * t4;
+			const double t6 = 2.0 * t5;
+			const double t7 = t3 + t6;
+			const double t8 = e * e;
+			const double t9 = t8 * t8;
+			const double t10 = 0x1.999999999999ap-3 /* 1/5 */ * t9;
+			const double t11 = t7 + t10;
+			const double t12 = b * b;
+			const double t13 = b * t12;
+			const double t14 = t11 * t13;
+			const double t15 = 0x1.ccccccccccccdp1 /* 18/5 */ * t5;
+			const double t16 = t3 + t15;
+			const double t17 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t9;
+			const double t18 = t16 + t17;
+			const double t19 = b * f;
+			const double t20 = f * t19;
+			const double t21 = t18 * t20;
+			const double t22 = t14 + t21;
+			const double t23 = 4.0 * t2;
+			const double t24 = 0x1.3333333333333p1 /* 12/5 */ * t8;
+			const double t25 = t23 + t24;
+			const double t26 = b * t19;
+			const double t27 = t4 * t26;
+			const double t28 = t25 * t27;
+			const double t29 = t22 + t28;
+			const double t30 = 0x1.999999999999ap-1 /* 4/5 */ * t2;
+			const double t31 = 0x1.2492492492492p-1 /* 4/7 */ * t8;
+			const double t32 = t30 + t31;
+			const double t33 = f * f;
+			const double t34 = f * t33;
+			const double t35 = t4 * t34;
+			const double t36 = t32 * t35;
+			const double t37 = t29 + t36;
+			const double t38 = s * t37;
+			acc0 = acc0 + t38;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1287,59 +1287,59 @@ void ew_ring_x3y4_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = t3 * t3;
-			const double t5 = b * f;
-			const double t6 = t5 * t5;
-			const double t7 = 2.0 * t6;
-			const double t8 = t4 + t7;
-			const double t9 = f * f;
-			const double t10 = t9 * t9;
-			const double t11 = 0x1.999999999999ap-3 /* 1/5 */ * t10;
-			const double t12 = t8 + t11;
-			const double t13 = a * a;
-			const double t14 = a * t13;
-			const double t15 = t12 * t14;
-			const double t16 = 4.0 * t3;
-			const double t17 = 0x1.3333333333333p1 /* 12/5 */ * t9;
-			const double t18 = t16 + t17;
-			const double t19 = a * e;
-			const double t20 = a * t19;
-			const double t21 = t5 * t20;
-			const double t22 = t18 * t21;
-			const double t23 = t15 + t22;
-			const double t24 = 0x1.ccccccccccccdp1 /* 18/5 */ * t6;
-			const double t25 = t4 + t24;
-			const double t26 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t10;
-			const double t27 = t25 + t26;
-			const double t28 = e * t19;
-			const double t29 = t27 * t28;
-			const double t30 = t23 + t29;
-			const double t31 = 0x1.999999999999ap-1 /* 4/5 */ * t3;
-			const double t32 = 0x1.2492492492492p-1 /* 4/7 */ * t9;
-			const double t33 = t31 + t32;
-			const double t34 = e * e;
-			const double t35 = e * t34;
-			const double t36 = t5 * t35;
-			const double t37 = t33 * t36;
-			const double t38 = t30 + t37;
-			const double t39 = t2 * t38;
-			acc0 = t39 + acc0;
+			const double t2 = b * b;
+			const double t3 = t2 * t2;
+			const double t4 = b * f;
+			const double t5 = t4 * t4;
+			const double t6 = 2.0 * t5;
+			const double t7 = t3 + t6;
+			const double t8 = f * f;
+			const double t9 = t8 * t8;
+			const double t10 = 0x1.999999999999ap-3 /* 1/5 */ * t9;
+			const double t11 = t7 + t10;
+			const double t12 = a * a;
+			const double t13 = a * t12;
+			const double t14 = t11 * t13;
+			const double t15 = 4.0 * t2;
+			const double t16 = 0x1.3333333333333p1 /* 12/5 */ * t8;
+			const double t17 = t15 + t16;
+			const double t18 = a * e;
+			const double t19 = a * t18;
+			const double t20 = t4 * t19;
+			const double t21 = t17 * t20;
+			const double t22 = t14 + t21;
+			const double t23 = 0x1.ccccccccccccdp1 /* 18/5 */ * t5;
+			const double t24 = t3 + t23;
+			const double t25 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t9;
+			const double t26 = t24 + t25;
+			const double t27 = e * t18;
+			const double t28 = t26 * t27;
+			const double t29 = t22 + t28;
+			const double t30 = 0x1.999999999999ap-1 /* 4/5 */ * t2;
+			const double t31 = 0x1.2492492492492p-1 /* 4/7 */ * t8;
+			const double t32 = t30 + t31;
+			const double t33 = e * e;
+			const double t34 = e * t33;
+			const double t35 = t4 * t34;
+			const double t36 = t32 * t35;
+			const double t37 = t29 + t36;
+			const double t38 = s * t37;
+			acc0 = acc0 + t38;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1350,53 +1350,53 @@ void ew_ring_x2y5_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = t3 * t3;
-			const double t5 = 0x1.3333333333333p-2 /* 3/10 */ * t4;
-			const double t6 = b * f;
-			const double t7 = t6 * t6;
-			const double t8 = t5 + t7;
-			const double t9 = f * f;
-			const double t10 = t9 * t9;
-			const double t11 = 0x1.3333333333333p-2 /* 3/10 */ * t10;
-			const double t12 = t8 + t11;
-			const double t13 = a * a;
-			const double t14 = b * t13;
-			const double t15 = t12 * t14;
-			const double t16 = 0x1.3333333333333p0 /* 6/5 */ * t7;
-			const double t17 = t4 + t16;
-			const double t18 = 0x1.5f15f15f15f16p-4 /* 3/35 */ * t10;
-			const double t19 = t17 + t18;
-			const double t20 = a * e;
-			const double t21 = f * t20;
-			const double t22 = t19 * t21;
-			const double t23 = t15 + t22;
-			const double t24 = 0x1.999999999999ap-4 /* 1/10 */ * t4;
-			const double t25 = 0x1.3333333333333p-1 /* 3/5 */ * t7;
-			const double t26 = t24 + t25;
-			const double t27 = 0x1.b6db6db6db6dbp-3 /* 3/14 */ * t10;
-			const double t28 = t26 + t27;
-			const double t29 = e * e;
-			const double t30 = b * t29;
-			const double t31 = t28 * t30;
-			const double t32 = t23 + t31;
-			const double t33 = t2 * t32;
-			acc0 = t33 + acc0;
+			const double t2 = b * b;
+			const double t3 = t2 * t2;
+			const double t4 = 0x1.3333333333333p-2 /* 3/10 */ * t3;
+			const double t5 = b * f;
+			const double t6 = t5 * t5;
+			const double t7 = t4 + t6;
+			const double t8 = f * f;
+			const double t9 = t8 * t8;
+			const double t10 = 0x1.3333333333333p-2 /* 3/10 */ * t9;
+			const double t11 = t7 + t10;
+			const double t12 = a * a;
+			const double t13 = b * t12;
+			const double t14 = t11 * t13;
+			const double t15 = 0x1.3333333333333p0 /* 6/5 */ * t6;
+			const double t16 = t3 + t15;
+			const double t17 = 0x1.5f15f15f15f16p-4 /* 3/35 */ * t9;
+			const double t18 = t16 + t17;
+			const double t19 = a * e;
+			const double t20 = f * t19;
+			const double t21 = t18 * t20;
+			const double t22 = t14 + t21;
+			const double t23 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
+			const double t24 = 0x1.3333333333333p-1 /* 3/5 */ * t6;
+			const double t25 = t23 + t24;
+			const double t26 = 0x1.b6db6db6db6dbp-3 /* 3/14 */ * t9;
+			const double t27 = t25 + t26;
+			const double t28 = e * e;
+			const double t29 = b * t28;
+			const double t30 = t27 * t29;
+			const double t31 = t22 + t30;
+			const double t32 = s * t31;
+			acc0 = acc0 + t32;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1407,7 +1407,7 @@ void ew_ring_x1y6_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
@@ -1445,12 +1445,12 @@ void ew_ring_x1y6_portable(const double *x, const double *y, double cx, size_t c
 			const double t25 = t23 * t24;
 			const double t26 = t16 + t25;
 			const double t27 = x0 * y1;
-			const double t28 = y0 * x1;
-			const double t29 = t27 - t28;
-			const double t30 = t29 * t26;
-			acc0 = t30 + acc0;
+			const double t28 = x1 * y0;
+			const double s = t27 - t28;
+			const double t29 = s * t26;
+			acc0 = acc0 + t29;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1461,38 +1461,38 @@ void ew_ring_x0y7_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = y0 + y1;
-			const double t4 = y0 * t3;
-			const double t5 = y1 * y1;
-			const double t6 = t4 + t5;
-			const double t7 = y0 * t6;
-			const double t8 = y1 * t5;
-			const double t9 = t7 + t8;
-			const double t10 = y0 * t9;
-			const double t11 = y1 * t8;
-			const double t12 = t10 + t11;
-			const double t13 = y0 * t12;
-			const double t14 = y1 * t11;
-			const double t15 = t13 + t14;
-			const double t16 = y0 * t15;
-			const double t17 = y1 * t14;
-			const double t18 = t16 + t17;
-			const double t19 = y0 * t18;
-			const double t20 = y1 * t17;
-			const double t21 = t19 + t20;
-			const double t22 = t2 * t21;
-			acc0 = t22 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = y0 + y1;
+			const double t3 = t2 * y0;
+			const double t4 = y1 * y1;
+			const double t5 = t3 + t4;
+			const double t6 = t5 * y0;
+			const double t7 = t4 * y1;
+			const double t8 = t6 + t7;
+			const double t9 = t8 * y0;
+			const double t10 = t7 * y1;
+			const double t11 = t9 + t10;
+			const double t12 = t11 * y0;
+			const double t13 = t10 * y1;
+			const double t14 = t12 + t13;
+			const double t15 = t14 * y0;
+			const double t16 = t13 * y1;
+			const double t17 = t15 + t16;
+			const double t18 = t17 * y0;
+			const double t19 = t16 * y1;
+			const double t20 = t18 + t19;
+			const double t21 = s * t20;
+			acc0 = acc0 + t21;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1503,41 +1503,41 @@ void ew_ring_x8y0_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = x0 + x1;
-			const double t4 = x0 * t3;
-			const double t5 = x1 * x1;
-			const double t6 = t4 + t5;
-			const double t7 = x0 * t6;
-			const double t8 = x1 * t5;
-			const double t9 = t7 + t8;
-			const double t10 = x0 * t9;
-			const double t11 = x1 * t8;
-			const double t12 = t10 + t11;
-			const double t13 = x0 * t12;
-			const double t14 = x1 * t11;
-			const double t15 = t13 + t14;
-			const double t16 = x0 * t15;
-			const double t17 = x1 * t14;
-			const double t18 = t16 + t17;
-			const double t19 = x0 * t18;
-			const double t20 = x1 * t17;
-			const double t21 = t19 + t20;
-			const double t22 = x0 * t21;
-			const double t23 = x1 * t20;
-			const double t24 = t22 + t23;
-			const double t25 = t2 * t24;
-			acc0 = t25 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = x0 + x1;
+			const double t3 = t2 * x0;
+			const double t4 = x1 * x1;
+			const double t5 = t3 + t4;
+			const double t6 = t5 * x0;
+			const double t7 = t4 * x1;
+			const double t8 = t6 + t7;
+			const double t9 = t8 * x0;
+			const double t10 = t7 * x1;
+			const double t11 = t9 + t10;
+			const double t12 = t11 * x0;
+			const double t13 = t10 * x1;
+			const double t14 = t12 + t13;
+			const double t15 = t14 * x0;
+			const double t16 = t13 * x1;
+			const double t17 = t15 + t16;
+			const double t18 = t17 * x0;
+			const double t19 = t16 * x1;
+			const double t20 = t18 + t19;
+			const double t21 = t20 * x0;
+			const double t22 = t19 * x1;
+			const double t23 = t21 + t22;
+			const double t24 = s * t23;
+			acc0 = acc0 + t24;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1548,49 +1548,49 @@ void ew_ring_x7y1_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = a * t3;
-			const double t5 = t4 * t4;
-			const double t6 = 0x1.2492492492492p-3 /* 1/7 */ * t5;
-			const double t7 = a * e;
-			const double t8 = t7 * t7;
-			const double t9 = t3 * t8;
-			const double t10 = t6 + t9;
-			const double t11 = e * e;
-			const double t12 = t8 * t11;
-			const double t13 = t10 + t12;
-			const double t14 = e * t11;
-			const double t15 = t14 * t14;
-			const double t16 = 0x1.2492492492492p-3 /* 1/7 */ * t15;
-			const double t17 = t13 + t16;
-			const double t18 = a * b;
-			const double t19 = t17 * t18;
-			const double t20 = 0x1.5555555555555p-2 /* 1/3 */ * t5;
-			const double t21 = t9 + t20;
-			const double t22 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t12;
-			const double t23 = t21 + t22;
-			const double t24 = 0x1.0410410410410p-6 /* 1/63 */ * t15;
-			const double t25 = t23 + t24;
-			const double t26 = e * f;
-			const double t27 = t25 * t26;
-			const double t28 = t19 + t27;
-			const double t29 = t2 * t28;
-			acc0 = t29 + acc0;
+			const double t2 = a * a;
+			const double t3 = a * t2;
+			const double t4 = t3 * t3;
+			const double t5 = 0x1.2492492492492p-3 /* 1/7 */ * t4;
+			const double t6 = a * e;
+			const double t7 = t6 * t6;
+			const double t8 = t2 * t7;
+			const double t9 = t5 + t8;
+			const double t10 = e * e;
+			const double t11 = t7 * t10;
+			const double t12 = t9 + t11;
+			const double t13 = e * t10;
+			const double t14 = t13 * t13;
+			const double t15 = 0x1.2492492492492p-3 /* 1/7 */ * t14;
+			const double t16 = t12 + t15;
+			const double t17 = a * b;
+			const double t18 = t16 * t17;
+			const double t19 = 0x1.5555555555555p-2 /* 1/3 */ * t4;
+			const double t20 = t8 + t19;
+			const double t21 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t11;
+			const double t22 = t20 + t21;
+			const double t23 = 0x1.0410410410410p-6 /* 1/63 */ * t14;
+			const double t24 = t22 + t23;
+			const double t25 = e * f;
+			const double t26 = t24 * t25;
+			const double t27 = t18 + t26;
+			const double t28 = s * t27;
+			acc0 = acc0 + t28;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1601,61 +1601,61 @@ void ew_ring_x6y2_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = a * t3;
-			const double t5 = t4 * t4;
-			const double t6 = 0x1.5555555555555p-2 /* 1/3 */ * t5;
-			const double t7 = a * e;
-			const double t8 = t7 * t7;
-			const double t9 = t3 * t8;
-			const double t10 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t9;
-			const double t11 = t6 + t10;
-			const double t12 = e * e;
-			const double t13 = t8 * t12;
-			const double t14 = t11 + t13;
-			const double t15 = e * t12;
-			const double t16 = t15 * t15;
-			const double t17 = 0x1.8618618618618p-5 /* 1/21 */ * t16;
-			const double t18 = t14 + t17;
-			const double t19 = b * b;
-			const double t20 = t18 * t19;
-			const double t21 = 0x1.c71c71c71c71cp-4 /* 1/9 */ * t5;
-			const double t22 = t9 + t21;
-			const double t23 = 0x1.6db6db6db6db7p-1 /* 5/7 */ * t13;
-			const double t24 = t22 + t23;
-			const double t25 = 0x1.2f684bda12f68p-5 /* 1/27 */ * t16;
-			const double t26 = t24 + t25;
-			const double t27 = f * f;
-			const double t28 = t26 * t27;
-			const double t29 = t20 + t28;
-			const double t30 = t3 * t3;
-			const double t31 = 0x1.5555555555555p0 /* 4/3 */ * t30;
-			const double t32 = 0x1.5555555555555p1 /* 8/3 */ * t8;
-			const double t33 = t31 + t32;
-			const double t34 = t12 * t12;
-			const double t35 = 0x1.2492492492492p-1 /* 4/7 */ * t34;
-			const double t36 = t33 + t35;
-			const double t37 = b * f;
-			const double t38 = t7 * t37;
-			const double t39 = t36 * t38;
-			const double t40 = t29 + t39;
-			const double t41 = t2 * t40;
-			acc0 = t41 + acc0;
+			const double t2 = a * a;
+			const double t3 = a * t2;
+			const double t4 = t3 * t3;
+			const double t5 = 0x1.5555555555555p-2 /* 1/3 */ * t4;
+			const double t6 = a * e;
+			const double t7 = t6 * t6;
+			const double t8 = t2 * t7;
+			const double t9 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t8;
+			const double t10 = t5 + t9;
+			const double t11 = e * e;
+			const double t12 = t7 * t11;
+			const double t13 = t10 + t12;
+			const double t14 = e * t11;
+			const double t15 = t14 * t14;
+			const double t16 = 0x1.8618618618618p-5 /* 1/21 */ * t15;
+			const double t17 = t13 + t16;
+			const double t18 = b * b;
+			const double t19 = t17 * t18;
+			const double t20 = 0x1.c71c71c71c71cp-4 /* 1/9 */ * t4;
+			const double t21 = t8 + t20;
+			const double t22 = 0x1.6db6db6db6db7p-1 /* 5/7 */ * t12;
+			const double t23 = t21 + t22;
+			const double t24 = 0x1.2f684bda12f68p-5 /* 1/27 */ * t15;
+			const double t25 = t23 + t24;
+			const double t26 = f * f;
+			const double t27 = t25 * t26;
+			const double t28 = t19 + t27;
+			const double t29 = t2 * t2;
+			const double t30 = 0x1.5555555555555p0 /* 4/3 */ * t29;
+			const double t31 = 0x1.5555555555555p1 /* 8/3 */ * t7;
+			const double t32 = t30 + t31;
+			const double t33 = t11 * t11;
+			const double t34 = 0x1.2492492492492p-1 /* 4/7 */ * t33;
+			const double t35 = t32 + t34;
+			const double t36 = b * f;
+			const double t37 = t6 * t36;
+			const double t38 = t35 * t37;
+			const double t39 = t28 + t38;
+			const double t40 = s * t39;
+			acc0 = acc0 + t40;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1666,62 +1666,62 @@ void ew_ring_x5y3_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = a * a;
-			const double t4 = t3 * t3;
-			const double t5 = a * e;
-			const double t6 = t5 * t5;
-			const double t7 = 0x1.aaaaaaaaaaaabp1 /* 10/3 */ * t6;
-			const double t8 = t4 + t7;
-			const double t9 = e * e;
-			const double t10 = t9 * t9;
-			const double t11 = t8 + t10;
-			const double t12 = b * b;
-			const double t13 = b * t12;
-			const double t14 = a * t13;
-			const double t15 = t11 * t14;
-			const double t16 = 6.0 * t6;
-			const double t17 = t4 + t16;
-			const double t18 = 0x1.1249249249249p1 /* 15/7 */ * t10;
-			const double t19 = t17 + t18;
-			const double t20 = b * f;
-			const double t21 = f * t20;
-			const double t22 = a * t21;
-			const double t23 = t19 * t22;
-			const double t24 = t15 + t23;
-			const double t25 = 5.0 * t4;
-			const double t26 = t16 + t25;
-			const double t27 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t10;
-			const double t28 = t26 + t27;
-			const double t29 = b * t20;
-			const double t30 = e * t29;
-			const double t31 = t28 * t30;
-			const double t32 = t24 + t31;
-			const double t33 = 0x1.6db6db6db6db7p0 /* 10/7 */ * t6;
-			const double t34 = t4 + t33;
-			const double t35 = 0x1.c71c71c71c71cp-4 /* 1/9 */ * t10;
-			const double t36 = t34 + t35;
-			const double t37 = f * f;
-			const double t38 = f * t37;
-			const double t39 = e * t38;
-			const double t40 = t36 * t39;
-			const double t41 = t32 + t40;
-			const double t42 = t2 * t41;
-			acc0 = t42 + acc0;
+			const double t2 = a * a;
+			const double t3 = t2 * t2;
+			const double t4 = a * e;
+			const double t5 = t4 * t4;
+			const double t6 = 0x1.aaaaaaaaaaaabp1 /* 10/3 */ * t5;
+			const double t7 = t3 + t6;
+			const double t8 = e * e;
+			const double t9 = t8 * t8;
+			const double t10 = t7 + t9;
+			const double t11 = b * b;
+			const double t12 = b * t11;
+			const double t13 = a * t12;
+			const double t14 = t10 * t13;
+			const double t15 = 6.0 * t5;
+			const double t16 = t3 + t15;
+			const double t17 = 0x1.1249249249249p1 /* 15/7 */ * t9;
+			const double t18 = t16 + t17;
+			const double t19 = b * f;
+			const double t20 = f * t19;
+			const double t21 = a * t20;
+			const double t22 = t18 * t21;
+			const double t23 = t14 + t22;
+			const double t24 = 5.0 * t3;
+			const double t25 = t15 + t24;
+			const double t26 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t9;
+			const double t27 = t25 + t26;
+			const double t28 = b * t19;
+			const double t29 = e * t28;
+			const double t30 = t27 * t29;
+			const double t31 = t23 + t30;
+			const double t32 = 0x1.6db6db6db6db7p0 /* 10/7 */ * t5;
+			const double t33 = t3 + t32;
+			const double t34 = 0x1.c71c71c71c71cp-4 /* 1/9 */ * t9;
+			const double t35 = t33 + t34;
+			const double t36 = f * f;
+			const double t37 = f * t36;
+			const double t38 = e * t37;
+			const double t39 = t35 * t38;
+			const double t40 = t31 + t39;
+			const double t41 = s * t40;
+			acc0 = acc0 + t41;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1732,67 +1732,67 @@ void ew_ring_x4y4_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = t3 * t3;
-			const double t5 = 0x1.0000000000000p-1 /* 1/2 */ * t4;
-			const double t6 = b * f;
-			const double t7 = t6 * t6;
-			const double t8 = t5 + t7;
-			const double t9 = f * f;
-			const double t10 = t9 * t9;
-			const double t11 = 0x1.999999999999ap-4 /* 1/10 */ * t10;
-			const double t12 = t8 + t11;
-			const double t13 = a * a;
-			const double t14 = t13 * t13;
-			const double t15 = t12 * t14;
-			const double t16 = 0x1.5555555555555p1 /* 8/3 */ * t3;
-			const double t17 = 0x1.999999999999ap0 /* 8/5 */ * t9;
-			const double t18 = t16 + t17;
-			const double t19 = a * e;
-			const double t20 = t13 * t19;
-			const double t21 = t6 * t20;
-			const double t22 = t18 * t21;
-			const double t23 = t15 + t22;
-			const double t24 = 0x1.ccccccccccccdp1 /* 18/5 */ * t7;
-			const double t25 = t4 + t24;
-			const double t26 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t10;
-			const double t27 = t25 + t26;
-			const double t28 = t19 * t19;
-			const double t29 = t27 * t28;
-			const double t30 = t23 + t29;
-			const double t31 = 0x1.999999999999ap0 /* 8/5 */ * t3;
-			const double t32 = 0x1.2492492492492p0 /* 8/7 */ * t9;
-			const double t33 = t31 + t32;
-			const double t34 = e * e;
-			const double t35 = t19 * t34;
-			const double t36 = t6 * t35;
-			const double t37 = t33 * t36;
-			const double t38 = t30 + t37;
-			const double t39 = 0x1.999999999999ap-4 /* 1/10 */ * t4;
-			const double t40 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t7;
-			const double t41 = t39 + t40;
-			const double t42 = 0x1.c71c71c71c71cp-5 /* 1/18 */ * t10;
-			const double t43 = t41 + t42;
-			const double t44 = t34 * t34;
-			const double t45 = t43 * t44;
-			const double t46 = t38 + t45;
-			const double t47 = t2 * t46;
-			acc0 = t47 + acc0;
+			const double t2 = b * b;
+			const double t3 = t2 * t2;
+			const double t4 = 0.5 * t3;
+			const double t5 = b * f;
+			const double t6 = t5 * t5;
+			const double t7 = t4 + t6;
+			const double t8 = f * f;
+			const double t9 = t8 * t8;
+			const double t10 = 0x1.999999999999ap-4 /* 1/10 */ * t9;
+			const double t11 = t7 + t10;
+			const double t12 = a * a;
+			const double t13 = t12 * t12;
+			const double t14 = t11 * t13;
+			const double t15 = 0x1.5555555555555p1 /* 8/3 */ * t2;
+			const double t16 = 0x1.999999999999ap0 /* 8/5 */ * t8;
+			const double t17 = t15 + t16;
+			const double t18 = a * e;
+			const double t19 = t12 * t18;
+			const double t20 = t5 * t19;
+			const double t21 = t17 * t20;
+			const double t22 = t14 + t21;
+			const double t23 = 0x1.ccccccccccccdp1 /* 18/5 */ * t6;
+			const double t24 = t3 + t23;
+			const double t25 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t9;
+			const double t26 = t24 + t25;
+			const double t27 = t18 * t18;
+			const double t28 = t26 * t27;
+			const double t29 = t22 + t28;
+			const double t30 = 0x1.999999999999ap0 /* 8/5 */ * t2;
+			const double t31 = 0x1.2492492492492p0 /* 8/7 */ * t8;
+			const double t32 = t30 + t31;
+			const double t33 = e * e;
+			const double t34 = t18 * t33;
+			const double t35 = t5 * t34;
+			const double t36 = t32 * t35;
+			const double t37 = t29 + t36;
+			const double t38 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
+			const double t39 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t6;
+			const double t40 = t38 + t39;
+			const double t41 = 0x1.c71c71c71c71cp-5 /* 1/18 */ * t9;
+			const double t42 = t40 + t41;
+			const double t43 = t33 * t33;
+			const double t44 = t42 * t43;
+			const double t45 = t37 + t44;
+			const double t46 = s * t45;
+			acc0 = acc0 + t46;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1803,62 +1803,62 @@ void ew_ring_x3y5_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = t3 * t3;
-			const double t5 = b * f;
-			const double t6 = t5 * t5;
-			const double t7 = 0x1.aaaaaaaaaaaabp1 /* 10/3 */ * t6;
-			const double t8 = t4 + t7;
-			const double t9 = f * f;
-			const double t10 = t9 * t9;
-			const double t11 = t8 + t10;
-			const double t12 = a * a;
-			const double t13 = a * t12;
-			const double t14 = b * t13;
-			const double t15 = t11 * t14;
-			const double t16 = 5.0 * t4;
-			const double t17 = 6.0 * t6;
-			const double t18 = t16 + t17;
-			const double t19 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t10;
-			const double t20 = t18 + t19;
-			const double t21 = a * e;
-			const double t22 = a * t21;
-			const double t23 = f * t22;
-			const double t24 = t20 * t23;
-			const double t25 = t15 + t24;
-			const double t26 = t4 + t17;
-			const double t27 = 0x1.1249249249249p1 /* 15/7 */ * t10;
-			const double t28 = t26 + t27;
-			const double t29 = e * t21;
-			const double t30 = b * t29;
-			const double t31 = t28 * t30;
-			const double t32 = t25 + t31;
-			const double t33 = 0x1.6db6db6db6db7p0 /* 10/7 */ * t6;
-			const double t34 = t4 + t33;
-			const double t35 = 0x1.c71c71c71c71cp-4 /* 1/9 */ * t10;
-			const double t36 = t34 + t35;
-			const double t37 = e * e;
-			const double t38 = e * t37;
-			const double t39 = f * t38;
-			const double t40 = t36 * t39;
-			const double t41 = t32 + t40;
-			const double t42 = t2 * t41;
-			acc0 = t42 + acc0;
+			const double t2 = b * b;
+			const double t3 = t2 * t2;
+			const double t4 = b * f;
+			const double t5 = t4 * t4;
+			const double t6 = 0x1.aaaaaaaaaaaabp1 /* 10/3 */ * t5;
+			const double t7 = t3 + t6;
+			const double t8 = f * f;
+			const double t9 = t8 * t8;
+			const double t10 = t7 + t9;
+			const double t11 = a * a;
+			const double t12 = a * t11;
+			const double t13 = b * t12;
+			const double t14 = t10 * t13;
+			const double t15 = 5.0 * t3;
+			const double t16 = 6.0 * t5;
+			const double t17 = t15 + t16;
+			const double t18 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t9;
+			const double t19 = t17 + t18;
+			const double t20 = a * e;
+			const double t21 = a * t20;
+			const double t22 = f * t21;
+			const double t23 = t19 * t22;
+			const double t24 = t14 + t23;
+			const double t25 = t3 + t16;
+			const double t26 = 0x1.1249249249249p1 /* 15/7 */ * t9;
+			const double t27 = t25 + t26;
+			const double t28 = e * t20;
+			const double t29 = b * t28;
+			const double t30 = t27 * t29;
+			const double t31 = t24 + t30;
+			const double t32 = 0x1.6db6db6db6db7p0 /* 10/7 */ * t5;
+			const double t33 = t3 + t32;
+			const double t34 = 0x1.c71c71c71c71cp-4 /* 1/9 */ * t9;
+			const double t35 = t33 + t34;
+			const double t36 = e * e;
+			const double t37 = e * t36;
+			const double t38 = f * t37;
+			const double t39 = t35 * t38;
+			const double t40 = t31 + t39;
+			const double t41 = s * t40;
+			acc0 = acc0 + t41;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1869,61 +1869,61 @@ void ew_ring_x2y6_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = b * t3;
-			const double t5 = t4 * t4;
-			const double t6 = 0x1.5555555555555p-2 /* 1/3 */ * t5;
-			const double t7 = b * f;
-			const double t8 = t7 * t7;
-			const double t9 = t3 * t8;
-			const double t10 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t9;
-			const double t11 = t6 + t10;
-			const double t12 = f * f;
-			const double t13 = t8 * t12;
-			const double t14 = t11 + t13;
-			const double t15 = f * t12;
-			const double t16 = t15 * t15;
-			const double t17 = 0x1.8618618618618p-5 /* 1/21 */ * t16;
-			const double t18 = t14 + t17;
-			const double t19 = a * a;
-			const double t20 = t18 * t19;
-			const double t21 = t3 * t3;
-			const double t22 = 0x1.5555555555555p0 /* 4/3 */ * t21;
-			const double t23 = 0x1.5555555555555p1 /* 8/3 */ * t8;
-			const double t24 = t22 + t23;
-			const double t25 = t12 * t12;
-			const double t26 = 0x1.2492492492492p-1 /* 4/7 */ * t25;
-			const double t27 = t24 + t26;
-			const double t28 = a * e;
-			const double t29 = t7 * t28;
-			const double t30 = t27 * t29;
-			const double t31 = t20 + t30;
-			const double t32 = 0x1.c71c71c71c71cp-4 /* 1/9 */ * t5;
-			const double t33 = t9 + t32;
-			const double t34 = 0x1.6db6db6db6db7p-1 /* 5/7 */ * t13;
-			const double t35 = t33 + t34;
-			const double t36 = 0x1.2f684bda12f68p-5 /* 1/27 */ * t16;
-			const double t37 = t35 + t36;
-			const double t38 = e * e;
-			const double t39 = t37 * t38;
-			const double t40 = t31 + t39;
-			const double t41 = t2 * t40;
-			acc0 = t41 + acc0;
+			const double t2 = b * b;
+			const double t3 = b * t2;
+			const double t4 = t3 * t3;
+			const double t5 = 0x1.5555555555555p-2 /* 1/3 */ * t4;
+			const double t6 = b * f;
+			const double t7 = t6 * t6;
+			const double t8 = t2 * t7;
+			const double t9 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t8;
+			const double t10 = t5 + t9;
+			const double t11 = f * f;
+			const double t12 = t7 * t11;
+			const double t13 = t10 + t12;
+			const double t14 = f * t11;
+			const double t15 = t14 * t14;
+			const double t16 = 0x1.8618618618618p-5 /* 1/21 */ * t15;
+			const double t17 = t13 + t16;
+			const double t18 = a * a;
+			const double t19 = t17 * t18;
+			const double t20 = t2 * t2;
+			const double t21 = 0x1.5555555555555p0 /* 4/3 */ * t20;
+			const double t22 = 0x1.5555555555555p1 /* 8/3 */ * t7;
+			const double t23 = t21 + t22;
+			const double t24 = t11 * t11;
+			const double t25 = 0x1.2492492492492p-1 /* 4/7 */ * t24;
+			const double t26 = t23 + t25;
+			const double t27 = a * e;
+			const double t28 = t6 * t27;
+			const double t29 = t26 * t28;
+			const double t30 = t19 + t29;
+			const double t31 = 0x1.c71c71c71c71cp-4 /* 1/9 */ * t4;
+			const double t32 = t8 + t31;
+			const double t33 = 0x1.6db6db6db6db7p-1 /* 5/7 */ * t12;
+			const double t34 = t32 + t33;
+			const double t35 = 0x1.2f684bda12f68p-5 /* 1/27 */ * t15;
+			const double t36 = t34 + t35;
+			const double t37 = e * e;
+			const double t38 = t36 * t37;
+			const double t39 = t30 + t38;
+			const double t40 = s * t39;
+			acc0 = acc0 + t40;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1934,49 +1934,49 @@ void ew_ring_x1y7_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double b = y0 + y1;
 			const double f = y1 - y0;
-			const double t3 = b * b;
-			const double t4 = b * t3;
-			const double t5 = t4 * t4;
-			const double t6 = 0x1.2492492492492p-3 /* 1/7 */ * t5;
-			const double t7 = b * f;
-			const double t8 = t7 * t7;
-			const double t9 = t3 * t8;
-			const double t10 = t6 + t9;
-			const double t11 = f * f;
-			const double t12 = t8 * t11;
-			const double t13 = t10 + t12;
-			const double t14 = f * t11;
-			const double t15 = t14 * t14;
-			const double t16 = 0x1.2492492492492p-3 /* 1/7 */ * t15;
-			const double t17 = t13 + t16;
-			const double t18 = a * b;
-			const double t19 = t17 * t18;
-			const double t20 = 0x1.5555555555555p-2 /* 1/3 */ * t5;
-			const double t21 = t9 + t20;
-			const double t22 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t12;
-			const double t23 = t21 + t22;
-			const double t24 = 0x1.0410410410410p-6 /* 1/63 */ * t15;
-			const double t25 = t23 + t24;
-			const double t26 = e * f;
-			const double t27 = t25 * t26;
-			const double t28 = t19 + t27;
-			const double t29 = t2 * t28;
-			acc0 = t29 + acc0;
+			const double t2 = b * b;
+			const double t3 = b * t2;
+			const double t4 = t3 * t3;
+			const double t5 = 0x1.2492492492492p-3 /* 1/7 */ * t4;
+			const double t6 = b * f;
+			const double t7 = t6 * t6;
+			const double t8 = t2 * t7;
+			const double t9 = t5 + t8;
+			const double t10 = f * f;
+			const double t11 = t7 * t10;
+			const double t12 = t9 + t11;
+			const double t13 = f * t10;
+			const double t14 = t13 * t13;
+			const double t15 = 0x1.2492492492492p-3 /* 1/7 */ * t14;
+			const double t16 = t12 + t15;
+			const double t17 = a * b;
+			const double t18 = t16 * t17;
+			const double t19 = 0x1.5555555555555p-2 /* 1/3 */ * t4;
+			const double t20 = t8 + t19;
+			const double t21 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t11;
+			const double t22 = t20 + t21;
+			const double t23 = 0x1.0410410410410p-6 /* 1/63 */ * t14;
+			const double t24 = t22 + t23;
+			const double t25 = e * f;
+			const double t26 = t24 * t25;
+			const double t27 = t18 + t26;
+			const double t28 = s * t27;
+			acc0 = acc0 + t28;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1987,40 +1987,40 @@ void ew_ring_x0y8_portable(const double *x, const double *y, double cx, size_t c
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
-		double acc0 = sum[0 + lane];
+		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
 			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double t0 = x0 * y1;
-			const double t1 = y0 * x1;
-			const double t2 = t0 - t1;
-			const double t3 = y0 + y1;
-			const double t4 = y0 * t3;
-			const double t5 = y1 * y1;
-			const double t6 = t4 + t5;
-			const double t7 = y0 * t6;
-			const double t8 = y1 * t5;
-			const double t9 = t7 + t8;
-			const double t10 = y0 * t9;
-			const double t11 = y1 * t8;
-			const double t12 = t10 + t11;
-			const double t13 = y0 * t12;
-			const double t14 = y1 * t11;
-			const double t15 = t13 + t14;
-			const double t16 = y0 * t15;
-			const double t17 = y1 * t14;
-			const double t18 = t16 + t17;
-			const double t19 = y0 * t18;
-			const double t20 = y1 * t17;
-			const double t21 = t19 + t20;
-			const double t22 = y0 * t21;
-			const double t23 = y1 * t20;
-			const double t24 = t22 + t23;
-			const double t25 = t2 * t24;
-			acc0 = t25 + acc0;
+			const double t1 = x1 * y0;
+			const double s = t0 - t1;
+			const double t2 = y0 + y1;
+			const double t3 = t2 * y0;
+			const double t4 = y1 * y1;
+			const double t5 = t3 + t4;
+			const double t6 = t5 * y0;
+			const double t7 = t4 * y1;
+			const double t8 = t6 + t7;
+			const double t9 = t8 * y0;
+			const double t10 = t7 * y1;
+			const double t11 = t9 + t10;
+			const double t12 = t11 * y0;
+			const double t13 = t10 * y1;
+			const double t14 = t12 + t13;
+			const double t15 = t14 * y0;
+			const double t16 = t13 * y1;
+			const double t17 = t15 + t16;
+			const double t18 = t17 * y0;
+			const double t19 = t16 * y1;
+			const double t20 = t18 + t19;
+			const double t21 = t20 * y0;
+			const double t22 = t19 * y1;
+			const double t23 = t21 + t22;
+			const double t24 = s * t23;
+			acc0 = acc0 + t24;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }

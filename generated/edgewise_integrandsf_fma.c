@@ -20,18 +20,18 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y0f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			acc0 = t2 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			acc0 = acc0 + s;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -42,19 +42,19 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y0f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = x0 + x1;
-			acc0 = fmaf(t2, t3, acc0);
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = x0 + x1;
+			acc0 = fmaf(s, t2, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -65,19 +65,19 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y1f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = y0 + y1;
-			acc0 = fmaf(t2, t3, acc0);
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = y0 + y1;
+			acc0 = fmaf(s, t2, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -88,21 +88,21 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y0f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = x0 + x1;
-			const float t4 = x0 * t3;
-			const float t5 = fmaf(x1, x1, t4);
-			acc0 = fmaf(t2, t5, acc0);
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = x0 + x1;
+			const float t3 = t2 * x0;
+			const float t4 = fmaf(x1, x1, t3);
+			acc0 = fmaf(s, t4, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -113,22 +113,22 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y1f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = fmaf(y1, 2.0f, y0);
-			const float t4 = fmaf(y0, 2.0f, y1);
-			const float t5 = x0 * t4;
-			const float t6 = fmaf(x1, t3, t5);
-			acc0 = fmaf(t2, t6, acc0);
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = fmaf(2.0f, y1, y0);
+			const float t3 = fmaf(2.0f, y0, y1);
+			const float t4 = t3 * x0;
+			const float t5 = fmaf(t2, x1, t4);
+			acc0 = fmaf(s, t5, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -139,21 +139,21 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y2f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = y0 + y1;
-			const float t4 = y0 * t3;
-			const float t5 = fmaf(y1, y1, t4);
-			acc0 = fmaf(t2, t5, acc0);
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = y0 + y1;
+			const float t3 = t2 * y0;
+			const float t4 = fmaf(y1, y1, t3);
+			acc0 = fmaf(s, t4, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -164,23 +164,23 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y0f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
-			const float t3 = a * a;
-			const float t4 = fmaf(e, e, t3);
-			const float t5 = a * t4;
-			acc0 = fmaf(t2, t5, acc0);
+			const float t2 = a * a;
+			const float t3 = fmaf(e, e, t2);
+			const float t4 = a * t3;
+			acc0 = fmaf(s, t4, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -191,29 +191,29 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y1f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = 3.0f * t3;
-			const float t5 = fmaf(e, e, t4);
-			const float t6 = b * t5;
-			const float t7 = a * e;
-			const float t8 = f * t7;
-			const float t9 = fmaf(2.0f, t8, t6);
-			acc0 = fmaf(t2, t9, acc0);
+			const float t2 = a * a;
+			const float t3 = 3.0f * t2;
+			const float t4 = fmaf(e, e, t3);
+			const float t5 = b * t4;
+			const float t6 = a * e;
+			const float t7 = f * t6;
+			const float t8 = fmaf(2.0f, t7, t5);
+			acc0 = fmaf(s, t8, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -224,29 +224,29 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y2f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = 3.0f * t3;
-			const float t5 = fmaf(f, f, t4);
-			const float t6 = a * t5;
-			const float t7 = b * f;
-			const float t8 = e * t7;
-			const float t9 = fmaf(2.0f, t8, t6);
-			acc0 = fmaf(t2, t9, acc0);
+			const float t2 = b * b;
+			const float t3 = 3.0f * t2;
+			const float t4 = fmaf(f, f, t3);
+			const float t5 = a * t4;
+			const float t6 = b * f;
+			const float t7 = e * t6;
+			const float t8 = fmaf(2.0f, t7, t5);
+			acc0 = fmaf(s, t8, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -257,23 +257,23 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y3f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = fmaf(f, f, t3);
-			const float t5 = b * t4;
-			acc0 = fmaf(t2, t5, acc0);
+			const float t2 = b * b;
+			const float t3 = fmaf(f, f, t2);
+			const float t4 = b * t3;
+			acc0 = fmaf(s, t4, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -284,25 +284,25 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y0f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = x0 + x1;
-			const float t4 = x1 * x1;
-			const float t5 = fmaf(x0, t3, t4);
-			const float t6 = x1 * t4;
-			const float t7 = fmaf(x0, t5, t6);
-			const float t8 = x0 * t7;
-			const float t9 = fmaf(x1, t6, t8);
-			acc0 = fmaf(t2, t9, acc0);
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = x0 + x1;
+			const float t3 = x1 * x1;
+			const float t4 = fmaf(t2, x0, t3);
+			const float t5 = t3 * x1;
+			const float t6 = fmaf(t4, x0, t5);
+			const float t7 = t6 * x0;
+			const float t8 = fmaf(t5, x1, t7);
+			acc0 = fmaf(s, t8, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -313,30 +313,30 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y1f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = e * e;
-			const float t5 = t3 + t4;
-			const float t6 = a * b;
-			const float t7 = t5 * t6;
-			const float t8 = fmaf(t4, 0x1.99999ap-3f /* 1/5 */, t3);
-			const float t9 = e * f;
-			const float t10 = fmaf(t8, t9, t7);
-			acc0 = fmaf(t2, t10, acc0);
+			const float t2 = a * a;
+			const float t3 = e * e;
+			const float t4 = t2 + t3;
+			const float t5 = a * b;
+			const float t6 = t4 * t5;
+			const float t7 = fmaf(0x1.99999ap-3f /* 1/5 */, t3, t2);
+			const float t8 = e * f;
+			const float t9 = fmaf(t7, t8, t6);
+			acc0 = fmaf(s, t9, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -347,34 +347,34 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y2f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = f * f;
-			const float t5 = fmaf(t3, 3.0f, t4);
-			const float t6 = a * a;
-			const float t7 = t5 * t6;
-			const float t8 = a * e;
-			const float t9 = b * f;
-			const float t10 = t8 * t9;
-			const float t11 = fmaf(4.0f, t10, t7);
-			const float t12 = fmaf(t4, 0x1.333334p-1f /* 3/5 */, t3);
-			const float t13 = e * e;
-			const float t14 = fmaf(t12, t13, t11);
-			acc0 = fmaf(t2, t14, acc0);
+			const float t2 = b * b;
+			const float t3 = f * f;
+			const float t4 = fmaf(3.0f, t2, t3);
+			const float t5 = a * a;
+			const float t6 = t4 * t5;
+			const float t7 = a * e;
+			const float t8 = b * f;
+			const float t9 = t7 * t8;
+			const float t10 = fmaf(4.0f, t9, t6);
+			const float t11 = fmaf(0x1.333334p-1f /* 3/5 */, t3, t2);
+			const float t12 = e * e;
+			const float t13 = fmaf(t11, t12, t10);
+			acc0 = fmaf(s, t13, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -385,30 +385,30 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y3f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = f * f;
-			const float t5 = t3 + t4;
-			const float t6 = a * b;
-			const float t7 = t5 * t6;
-			const float t8 = fmaf(t4, 0x1.99999ap-3f /* 1/5 */, t3);
-			const float t9 = e * f;
-			const float t10 = fmaf(t8, t9, t7);
-			acc0 = fmaf(t2, t10, acc0);
+			const float t2 = b * b;
+			const float t3 = f * f;
+			const float t4 = t2 + t3;
+			const float t5 = a * b;
+			const float t6 = t4 * t5;
+			const float t7 = fmaf(0x1.99999ap-3f /* 1/5 */, t3, t2);
+			const float t8 = e * f;
+			const float t9 = fmaf(t7, t8, t6);
+			acc0 = fmaf(s, t9, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -419,25 +419,25 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y4f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = y0 + y1;
-			const float t4 = y1 * y1;
-			const float t5 = fmaf(y0, t3, t4);
-			const float t6 = y1 * t4;
-			const float t7 = fmaf(y0, t5, t6);
-			const float t8 = y0 * t7;
-			const float t9 = fmaf(y1, t6, t8);
-			acc0 = fmaf(t2, t9, acc0);
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = y0 + y1;
+			const float t3 = y1 * y1;
+			const float t4 = fmaf(t2, y0, t3);
+			const float t5 = t3 * y1;
+			const float t6 = fmaf(t4, y0, t5);
+			const float t7 = t6 * y0;
+			const float t8 = fmaf(t5, y1, t7);
+			acc0 = fmaf(s, t8, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -448,27 +448,27 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y0f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = x0 + x1;
-			const float t4 = x1 * x1;
-			const float t5 = fmaf(x0, t3, t4);
-			const float t6 = x1 * t4;
-			const float t7 = fmaf(x0, t5, t6);
-			const float t8 = x1 * t6;
-			const float t9 = fmaf(x0, t7, t8);
-			const float t10 = x0 * t9;
-			const float t11 = fmaf(x1, t8, t10);
-			acc0 = fmaf(t2, t11, acc0);
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = x0 + x1;
+			const float t3 = x1 * x1;
+			const float t4 = fmaf(t2, x0, t3);
+			const float t5 = t3 * x1;
+			const float t6 = fmaf(t4, x0, t5);
+			const float t7 = t5 * x1;
+			const float t8 = fmaf(t6, x0, t7);
+			const float t9 = t8 * x0;
+			const float t10 = fmaf(t7, x1, t9);
+			acc0 = fmaf(s, t10, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -479,35 +479,35 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y1f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = t3 * t3;
-			const float t5 = a * e;
-			const float t6 = t5 * t5;
-			const float t7 = fmaf(t6, 2.0f, t4);
-			const float t8 = e * e;
-			const float t9 = t8 * t8;
-			const float t10 = fmaf(t9, 0x1.99999ap-3f /* 1/5 */, t7);
-			const float t11 = b * t10;
-			const float t12 = 0x1.555556p0f /* 4/3 */ * t3;
-			const float t13 = fmaf(t8, 0x1.99999ap-1f /* 4/5 */, t12);
-			const float t14 = f * t5;
-			const float t15 = fmaf(t13, t14, t11);
-			acc0 = fmaf(t2, t15, acc0);
+			const float t2 = a * a;
+			const float t3 = t2 * t2;
+			const float t4 = a * e;
+			const float t5 = t4 * t4;
+			const float t6 = fmaf(2.0f, t5, t3);
+			const float t7 = e * e;
+			const float t8 = t7 * t7;
+			const float t9 = fmaf(0x1.99999ap-3f /* 1/5 */, t8, t6);
+			const float t10 = b * t9;
+			const float t11 = 0x1.555556p0f /* 4/3 */ * t2;
+			const float t12 = fmaf(0x1.99999ap-1f /* 4/5 */, t7, t11);
+			const float t13 = f * t4;
+			const float t14 = fmaf(t12, t13, t10);
+			acc0 = fmaf(s, t14, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -518,38 +518,38 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y2f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = e * e;
-			const float t5 = t3 + t4;
-			const float t6 = b * b;
-			const float t7 = a * t6;
-			const float t8 = t5 * t7;
-			const float t9 = 0x1.555556p-2f /* 1/3 */ * t3;
-			const float t10 = fmaf(t4, 0x1.333334p-1f /* 3/5 */, t9);
-			const float t11 = f * f;
-			const float t12 = a * t11;
-			const float t13 = fmaf(t10, t12, t8);
-			const float t14 = 2.0f * t3;
-			const float t15 = fmaf(t4, 0x1.99999ap-2f /* 2/5 */, t14);
-			const float t16 = b * f;
-			const float t17 = e * t16;
-			const float t18 = fmaf(t15, t17, t13);
-			acc0 = fmaf(t2, t18, acc0);
+			const float t2 = a * a;
+			const float t3 = e * e;
+			const float t4 = t2 + t3;
+			const float t5 = b * b;
+			const float t6 = a * t5;
+			const float t7 = t4 * t6;
+			const float t8 = 0x1.555556p-2f /* 1/3 */ * t2;
+			const float t9 = fmaf(0x1.333334p-1f /* 3/5 */, t3, t8);
+			const float t10 = f * f;
+			const float t11 = a * t10;
+			const float t12 = fmaf(t9, t11, t7);
+			const float t13 = 2.0f * t2;
+			const float t14 = fmaf(0x1.99999ap-2f /* 2/5 */, t3, t13);
+			const float t15 = b * f;
+			const float t16 = e * t15;
+			const float t17 = fmaf(t14, t16, t12);
+			acc0 = fmaf(s, t17, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -560,38 +560,38 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y3f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = f * f;
-			const float t5 = t3 + t4;
-			const float t6 = a * a;
-			const float t7 = b * t6;
-			const float t8 = t5 * t7;
-			const float t9 = 2.0f * t3;
-			const float t10 = fmaf(t4, 0x1.99999ap-2f /* 2/5 */, t9);
-			const float t11 = a * e;
-			const float t12 = f * t11;
-			const float t13 = fmaf(t10, t12, t8);
-			const float t14 = 0x1.555556p-2f /* 1/3 */ * t3;
-			const float t15 = fmaf(t4, 0x1.333334p-1f /* 3/5 */, t14);
-			const float t16 = e * e;
-			const float t17 = b * t16;
-			const float t18 = fmaf(t15, t17, t13);
-			acc0 = fmaf(t2, t18, acc0);
+			const float t2 = b * b;
+			const float t3 = f * f;
+			const float t4 = t2 + t3;
+			const float t5 = a * a;
+			const float t6 = b * t5;
+			const float t7 = t4 * t6;
+			const float t8 = 2.0f * t2;
+			const float t9 = fmaf(0x1.99999ap-2f /* 2/5 */, t3, t8);
+			const float t10 = a * e;
+			const float t11 = f * t10;
+			const float t12 = fmaf(t9, t11, t7);
+			const float t13 = 0x1.555556p-2f /* 1/3 */ * t2;
+			const float t14 = fmaf(0x1.333334p-1f /* 3/5 */, t3, t13);
+			const float t15 = e * e;
+			const float t16 = b * t15;
+			const float t17 = fmaf(t14, t16, t12);
+			acc0 = fmaf(s, t17, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -602,35 +602,35 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y4f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = t3 * t3;
-			const float t5 = b * f;
-			const float t6 = t5 * t5;
-			const float t7 = fmaf(t6, 2.0f, t4);
-			const float t8 = f * f;
-			const float t9 = t8 * t8;
-			const float t10 = fmaf(t9, 0x1.99999ap-3f /* 1/5 */, t7);
-			const float t11 = a * t10;
-			const float t12 = 0x1.555556p0f /* 4/3 */ * t3;
-			const float t13 = fmaf(t8, 0x1.99999ap-1f /* 4/5 */, t12);
-			const float t14 = e * t5;
-			const float t15 = fmaf(t13, t14, t11);
-			acc0 = fmaf(t2, t15, acc0);
+			const float t2 = b * b;
+			const float t3 = t2 * t2;
+			const float t4 = b * f;
+			const float t5 = t4 * t4;
+			const float t6 = fmaf(2.0f, t5, t3);
+			const float t7 = f * f;
+			const float t8 = t7 * t7;
+			const float t9 = fmaf(0x1.99999ap-3f /* 1/5 */, t8, t6);
+			const float t10 = a * t9;
+			const float t11 = 0x1.555556p0f /* 4/3 */ * t2;
+			const float t12 = fmaf(0x1.99999ap-1f /* 4/5 */, t7, t11);
+			const float t13 = e * t4;
+			const float t14 = fmaf(t12, t13, t10);
+			acc0 = fmaf(s, t14, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -641,27 +641,27 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y5f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = y0 + y1;
-			const float t4 = y1 * y1;
-			const float t5 = fmaf(y0, t3, t4);
-			const float t6 = y1 * t4;
-			const float t7 = fmaf(y0, t5, t6);
-			const float t8 = y1 * t6;
-			const float t9 = fmaf(y0, t7, t8);
-			const float t10 = y0 * t9;
-			const float t11 = fmaf(y1, t8, t10);
-			acc0 = fmaf(t2, t11, acc0);
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = y0 + y1;
+			const float t3 = y1 * y1;
+			const float t4 = fmaf(t2, y0, t3);
+			const float t5 = t3 * y1;
+			const float t6 = fmaf(t4, y0, t5);
+			const float t7 = t5 * y1;
+			const float t8 = fmaf(t6, y0, t7);
+			const float t9 = t8 * y0;
+			const float t10 = fmaf(t7, y1, t9);
+			acc0 = fmaf(s, t10, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -672,29 +672,29 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y0f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = x0 + x1;
-			const float t4 = x1 * x1;
-			const float t5 = fmaf(x0, t3, t4);
-			const float t6 = x1 * t4;
-			const float t7 = fmaf(x0, t5, t6);
-			const float t8 = x1 * t6;
-			const float t9 = fmaf(x0, t7, t8);
-			const float t10 = x1 * t8;
-			const float t11 = fmaf(x0, t9, t10);
-			const float t12 = x0 * t11;
-			const float t13 = fmaf(x1, t10, t12);
-			acc0 = fmaf(t2, t13, acc0);
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = x0 + x1;
+			const float t3 = x1 * x1;
+			const float t4 = fmaf(t2, x0, t3);
+			const float t5 = t3 * x1;
+			const float t6 = fmaf(t4, x0, t5);
+			const float t7 = t5 * x1;
+			const float t8 = fmaf(t6, x0, t7);
+			const float t9 = t7 * x1;
+			const float t10 = fmaf(t8, x0, t9);
+			const float t11 = t10 * x0;
+			const float t12 = fmaf(t9, x1, t11);
+			acc0 = fmaf(s, t12, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -705,7 +705,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y1f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
@@ -718,11 +718,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y1f_fma(const float *x, const float *y, float cx
 			const float t2 = a * a;
 			const float t3 = t2 * t2;
 			const float t4 = 0x1.aaaaaap0f /* 5/3 */ * t3;
-			const float t5 = fmaf(t1, 2.0f, t4);
+			const float t5 = fmaf(2.0f, t1, t4);
 			const float t6 = e * e;
 			const float t7 = t6 * t6;
-			const float t8 = fmaf(t7, 0x1.24924ap-3f /* 1/7 */, t5);
-			const float t9 = fmaf(t1, 0x1.aaaaaap1f /* 10/3 */, t3);
+			const float t8 = fmaf(0x1.24924ap-3f /* 1/7 */, t7, t5);
+			const float t9 = fmaf(0x1.aaaaaap1f /* 10/3 */, t1, t3);
 			const float t10 = t9 + t7;
 			const float b = y0 + y1;
 			const float t11 = a * b;
@@ -731,11 +731,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y1f_fma(const float *x, const float *y, float cx
 			const float t13 = e * f;
 			const float t14 = fmaf(t8, t13, t12);
 			const float t15 = x0 * y1;
-			const float t16 = y0 * x1;
-			const float t17 = t15 - t16;
-			acc0 = fmaf(t17, t14, acc0);
+			const float t16 = x1 * y0;
+			const float s = t15 - t16;
+			acc0 = fmaf(s, t14, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -746,42 +746,42 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y2f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = t3 * t3;
-			const float t5 = a * e;
-			const float t6 = t5 * t5;
-			const float t7 = fmaf(t6, 2.0f, t4);
-			const float t8 = e * e;
-			const float t9 = t8 * t8;
-			const float t10 = fmaf(t9, 0x1.99999ap-3f /* 1/5 */, t7);
-			const float t11 = b * b;
-			const float t12 = t10 * t11;
-			const float t13 = 0x1.555556p-2f /* 1/3 */ * t4;
-			const float t14 = fmaf(t6, 0x1.333334p0f /* 6/5 */, t13);
-			const float t15 = fmaf(t9, 0x1.24924ap-3f /* 1/7 */, t14);
-			const float t16 = f * f;
-			const float t17 = fmaf(t15, t16, t12);
-			const float t18 = 0x1.555556p1f /* 8/3 */ * t3;
-			const float t19 = fmaf(t8, 0x1.99999ap0f /* 8/5 */, t18);
-			const float t20 = b * f;
-			const float t21 = t5 * t20;
-			const float t22 = fmaf(t19, t21, t17);
-			acc0 = fmaf(t2, t22, acc0);
+			const float t2 = a * a;
+			const float t3 = t2 * t2;
+			const float t4 = a * e;
+			const float t5 = t4 * t4;
+			const float t6 = fmaf(2.0f, t5, t3);
+			const float t7 = e * e;
+			const float t8 = t7 * t7;
+			const float t9 = fmaf(0x1.99999ap-3f /* 1/5 */, t8, t6);
+			const float t10 = b * b;
+			const float t11 = t9 * t10;
+			const float t12 = 0x1.555556p-2f /* 1/3 */ * t3;
+			const float t13 = fmaf(0x1.333334p0f /* 6/5 */, t5, t12);
+			const float t14 = fmaf(0x1.24924ap-3f /* 1/7 */, t8, t13);
+			const float t15 = f * f;
+			const float t16 = fmaf(t14, t15, t11);
+			const float t17 = 0x1.555556p1f /* 8/3 */ * t2;
+			const float t18 = fmaf(0x1.99999ap0f /* 8/5 */, t7, t17);
+			const float t19 = b * f;
+			const float t20 = t4 * t19;
+			const float t21 = fmaf(t18, t20, t16);
+			acc0 = fmaf(s, t21, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -792,44 +792,44 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y3f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = 0x1.aaaaaap0f /* 5/3 */ * t3;
-			const float t5 = f * f;
-			const float t6 = fmaf(0x1.aaaaaap0f /* 5/3 */, t5, t4);
-			const float t7 = a * a;
-			const float t8 = a * t7;
-			const float t9 = b * t8;
-			const float t10 = t6 * t9;
-			const float t11 = fmaf(t3, 5.0f, t5);
-			const float t12 = a * e;
-			const float t13 = a * t12;
-			const float t14 = f * t13;
-			const float t15 = fmaf(t11, t14, t10);
-			const float t16 = fmaf(t5, 3.0f, t4);
-			const float t17 = e * t12;
-			const float t18 = b * t17;
-			const float t19 = fmaf(t16, t18, t15);
-			const float t20 = fmaf(t5, 0x1.e79e7ap-3f /* 5/21 */, t3);
-			const float t21 = e * e;
-			const float t22 = e * t21;
-			const float t23 = f * t22;
-			const float t24 = fmaf(t20, t23, t19);
-			acc0 = fmaf(t2, t24, acc0);
+			const float t2 = b * b;
+			const float t3 = 0x1.aaaaaap0f /* 5/3 */ * t2;
+			const float t4 = f * f;
+			const float t5 = fmaf(0x1.aaaaaap0f /* 5/3 */, t4, t3);
+			const float t6 = a * a;
+			const float t7 = a * t6;
+			const float t8 = b * t7;
+			const float t9 = t5 * t8;
+			const float t10 = fmaf(5.0f, t2, t4);
+			const float t11 = a * e;
+			const float t12 = a * t11;
+			const float t13 = f * t12;
+			const float t14 = fmaf(t10, t13, t9);
+			const float t15 = fmaf(3.0f, t4, t3);
+			const float t16 = e * t11;
+			const float t17 = b * t16;
+			const float t18 = fmaf(t15, t17, t14);
+			const float t19 = fmaf(0x1.e79e7ap-3f /* 5/21 */, t4, t2);
+			const float t20 = e * e;
+			const float t21 = e * t20;
+			const float t22 = f * t21;
+			const float t23 = fmaf(t19, t22, t18);
+			acc0 = fmaf(s, t23, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -840,42 +840,42 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y4f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = t3 * t3;
-			const float t5 = b * f;
-			const float t6 = t5 * t5;
-			const float t7 = fmaf(t6, 2.0f, t4);
-			const float t8 = f * f;
-			const float t9 = t8 * t8;
-			const float t10 = fmaf(t9, 0x1.99999ap-3f /* 1/5 */, t7);
-			const float t11 = a * a;
-			const float t12 = t10 * t11;
-			const float t13 = 0x1.555556p1f /* 8/3 */ * t3;
-			const float t14 = fmaf(t8, 0x1.99999ap0f /* 8/5 */, t13);
-			const float t15 = a * e;
-			const float t16 = t5 * t15;
-			const float t17 = fmaf(t14, t16, t12);
-			const float t18 = 0x1.555556p-2f /* 1/3 */ * t4;
-			const float t19 = fmaf(t6, 0x1.333334p0f /* 6/5 */, t18);
-			const float t20 = fmaf(t9, 0x1.24924ap-3f /* 1/7 */, t19);
-			const float t21 = e * e;
-			const float t22 = fmaf(t20, t21, t17);
-			acc0 = fmaf(t2, t22, acc0);
+			const float t2 = b * b;
+			const float t3 = t2 * t2;
+			const float t4 = b * f;
+			const float t5 = t4 * t4;
+			const float t6 = fmaf(2.0f, t5, t3);
+			const float t7 = f * f;
+			const float t8 = t7 * t7;
+			const float t9 = fmaf(0x1.99999ap-3f /* 1/5 */, t8, t6);
+			const float t10 = a * a;
+			const float t11 = t9 * t10;
+			const float t12 = 0x1.555556p1f /* 8/3 */ * t2;
+			const float t13 = fmaf(0x1.99999ap0f /* 8/5 */, t7, t12);
+			const float t14 = a * e;
+			const float t15 = t4 * t14;
+			const float t16 = fmaf(t13, t15, t11);
+			const float t17 = 0x1.555556p-2f /* 1/3 */ * t3;
+			const float t18 = fmaf(0x1.333334p0f /* 6/5 */, t5, t17);
+			const float t19 = fmaf(0x1.24924ap-3f /* 1/7 */, t8, t18);
+			const float t20 = e * e;
+			const float t21 = fmaf(t19, t20, t16);
+			acc0 = fmaf(s, t21, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -886,7 +886,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y5f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
@@ -899,11 +899,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y5f_fma(const float *x, const float *y, float cx
 			const float t2 = b * b;
 			const float t3 = t2 * t2;
 			const float t4 = 0x1.aaaaaap0f /* 5/3 */ * t3;
-			const float t5 = fmaf(t1, 2.0f, t4);
+			const float t5 = fmaf(2.0f, t1, t4);
 			const float t6 = f * f;
 			const float t7 = t6 * t6;
-			const float t8 = fmaf(t7, 0x1.24924ap-3f /* 1/7 */, t5);
-			const float t9 = fmaf(t1, 0x1.aaaaaap1f /* 10/3 */, t3);
+			const float t8 = fmaf(0x1.24924ap-3f /* 1/7 */, t7, t5);
+			const float t9 = fmaf(0x1.aaaaaap1f /* 10/3 */, t1, t3);
 			const float t10 = t9 + t7;
 			const float a = x0 + x1;
 			const float t11 = a * b;
@@ -912,11 +912,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y5f_fma(const float *x, const float *y, float cx
 			const float t13 = e * f;
 			const float t14 = fmaf(t8, t13, t12);
 			const float t15 = x0 * y1;
-			const float t16 = y0 * x1;
-			const float t17 = t15 - t16;
-			acc0 = fmaf(t17, t14, acc0);
+			const float t16 = x1 * y0;
+			const float s = t15 - t16;
+			acc0 = fmaf(s, t14, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -927,29 +927,29 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y6f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = y0 + y1;
-			const float t4 = y1 * y1;
-			const float t5 = fmaf(y0, t3, t4);
-			const float t6 = y1 * t4;
-			const float t7 = fmaf(y0, t5, t6);
-			const float t8 = y1 * t6;
-			const float t9 = fmaf(y0, t7, t8);
-			const float t10 = y1 * t8;
-			const float t11 = fmaf(y0, t9, t10);
-			const float t12 = y0 * t11;
-			const float t13 = fmaf(y1, t10, t12);
-			acc0 = fmaf(t2, t13, acc0);
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = y0 + y1;
+			const float t3 = y1 * y1;
+			const float t4 = fmaf(t2, y0, t3);
+			const float t5 = t3 * y1;
+			const float t6 = fmaf(t4, y0, t5);
+			const float t7 = t5 * y1;
+			const float t8 = fmaf(t6, y0, t7);
+			const float t9 = t7 * y1;
+			const float t10 = fmaf(t8, y0, t9);
+			const float t11 = t10 * y0;
+			const float t12 = fmaf(t9, y1, t11);
+			acc0 = fmaf(s, t12, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -960,31 +960,31 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y0f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = x0 + x1;
-			const float t4 = x1 * x1;
-			const float t5 = fmaf(x0, t3, t4);
-			const float t6 = x1 * t4;
-			const float t7 = fmaf(x0, t5, t6);
-			const float t8 = x1 * t6;
-			const float t9 = fmaf(x0, t7, t8);
-			const float t10 = x1 * t8;
-			const float t11 = fmaf(x0, t9, t10);
-			const float t12 = x1 * t10;
-			const float t13 = fmaf(x0, t11, t12);
-			const float t14 = x0 * t13;
-			const float t15 = fmaf(x1, t12, t14);
-			acc0 = fmaf(t2, t15, acc0);
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = x0 + x1;
+			const float t3 = x1 * x1;
+			const float t4 = fmaf(t2, x0, t3);
+			const float t5 = t3 * x1;
+			const float t6 = fmaf(t4, x0, t5);
+			const float t7 = t5 * x1;
+			const float t8 = fmaf(t6, x0, t7);
+			const float t9 = t7 * x1;
+			const float t10 = fmaf(t8, x0, t9);
+			const float t11 = t9 * x1;
+			const float t12 = fmaf(t10, x0, t11);
+			const float t13 = t12 * x0;
+			const float t14 = fmaf(t11, x1, t13);
+			acc0 = fmaf(s, t14, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -995,7 +995,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y1f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
@@ -1008,17 +1008,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y1f_fma(const float *x, const float *y, float cx
 			const float t2 = a * a;
 			const float t3 = t2 * t2;
 			const float t4 = 14.0f * t3;
-			const float t5 = fmaf(t1, 28.0f, t4);
+			const float t5 = fmaf(28.0f, t1, t4);
 			const float t6 = e * e;
 			const float t7 = t6 * t6;
-			const float t8 = fmaf(t7, 6.0f, t5);
+			const float t8 = fmaf(6.0f, t7, t5);
 			const float t9 = t2 * t1;
 			const float t10 = a * t2;
 			const float t11 = t10 * t10;
 			const float t12 = 7.0f * t11;
-			const float t13 = fmaf(t9, 35.0f, t12);
+			const float t13 = fmaf(35.0f, t9, t12);
 			const float t14 = t1 * t6;
-			const float t15 = fmaf(t14, 21.0f, t13);
+			const float t15 = fmaf(21.0f, t14, t13);
 			const float t16 = e * t6;
 			const float t17 = fmaf(t16, t16, t15);
 			const float b = y0 + y1;
@@ -1027,11 +1027,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y1f_fma(const float *x, const float *y, float cx
 			const float t19 = f * t0;
 			const float t20 = fmaf(t8, t19, t18);
 			const float t21 = x0 * y1;
-			const float t22 = y0 * x1;
-			const float t23 = t21 - t22;
-			acc0 = fmaf(t23, t20, acc0);
+			const float t22 = x1 * y0;
+			const float s = t21 - t22;
+			acc0 = fmaf(s, t20, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1042,44 +1042,44 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y2f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = t3 * t3;
-			const float t5 = a * e;
-			const float t6 = t5 * t5;
-			const float t7 = fmaf(t4, 0x1.333334p-2f /* 3/10 */, t6);
-			const float t8 = e * e;
-			const float t9 = t8 * t8;
-			const float t10 = fmaf(0x1.333334p-2f /* 3/10 */, t9, t7);
-			const float t11 = b * b;
-			const float t12 = a * t11;
-			const float t13 = t10 * t12;
-			const float t14 = 0x1.99999ap-4f /* 1/10 */ * t4;
-			const float t15 = fmaf(t6, 0x1.333334p-1f /* 3/5 */, t14);
-			const float t16 = fmaf(t9, 0x1.b6db6ep-3f /* 3/14 */, t15);
-			const float t17 = f * f;
-			const float t18 = a * t17;
-			const float t19 = fmaf(t16, t18, t13);
-			const float t20 = fmaf(t6, 0x1.333334p0f /* 6/5 */, t4);
-			const float t21 = fmaf(t9, 0x1.5f15f2p-4f /* 3/35 */, t20);
-			const float t22 = b * f;
-			const float t23 = e * t22;
-			const float t24 = fmaf(t21, t23, t19);
-			acc0 = fmaf(t2, t24, acc0);
+			const float t2 = a * a;
+			const float t3 = t2 * t2;
+			const float t4 = a * e;
+			const float t5 = t4 * t4;
+			const float t6 = fmaf(0x1.333334p-2f /* 3/10 */, t3, t5);
+			const float t7 = e * e;
+			const float t8 = t7 * t7;
+			const float t9 = fmaf(0x1.333334p-2f /* 3/10 */, t8, t6);
+			const float t10 = b * b;
+			const float t11 = a * t10;
+			const float t12 = t9 * t11;
+			const float t13 = 0x1.99999ap-4f /* 1/10 */ * t3;
+			const float t14 = fmaf(0x1.333334p-1f /* 3/5 */, t5, t13);
+			const float t15 = fmaf(0x1.b6db6ep-3f /* 3/14 */, t8, t14);
+			const float t16 = f * f;
+			const float t17 = a * t16;
+			const float t18 = fmaf(t15, t17, t12);
+			const float t19 = fmaf(0x1.333334p0f /* 6/5 */, t5, t3);
+			const float t20 = fmaf(0x1.5f15f2p-4f /* 3/35 */, t8, t19);
+			const float t21 = b * f;
+			const float t22 = e * t21;
+			const float t23 = fmaf(t20, t22, t18);
+			acc0 = fmaf(s, t23, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1090,49 +1090,49 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y3f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = t3 * t3;
-			const float t5 = a * e;
-			const float t6 = t5 * t5;
-			const float t7 = fmaf(t6, 2.0f, t4);
-			const float t8 = e * e;
-			const float t9 = t8 * t8;
-			const float t10 = fmaf(t9, 0x1.99999ap-3f /* 1/5 */, t7);
-			const float t11 = b * b;
-			const float t12 = b * t11;
-			const float t13 = t10 * t12;
-			const float t14 = fmaf(t6, 0x1.ccccccp1f /* 18/5 */, t4);
-			const float t15 = fmaf(t9, 0x1.b6db6ep-2f /* 3/7 */, t14);
-			const float t16 = b * f;
-			const float t17 = f * t16;
-			const float t18 = fmaf(t15, t17, t13);
-			const float t19 = 4.0f * t3;
-			const float t20 = fmaf(t8, 0x1.333334p1f /* 12/5 */, t19);
-			const float t21 = b * t16;
-			const float t22 = t5 * t21;
-			const float t23 = fmaf(t20, t22, t18);
-			const float t24 = 0x1.99999ap-1f /* 4/5 */ * t3;
-			const float t25 = fmaf(t8, 0x1.24924ap-1f /* 4/7 */, t24);
-			const float t26 = f * f;
-			const float t27 = f * t26;
-			const float t28 = t5 * t27;
-			const float t29 = fmaf(t25, t28, t23);
-			acc0 = fmaf(t2, t29, acc0);
+			const float t2 = a * a;
+			const float t3 = t2 * t2;
+			const float t4 = a * e;
+			const float t5 = t4 * t4;
+			const float t6 = fmaf(2.0f, t5, t3);
+			const float t7 = e * e;
+			const float t8 = t7 * t7;
+			const float t9 = fmaf(0x1.99999ap-3f /* 1/5 */, t8, t6);
+			const float t10 = b * b;
+			const float t11 = b * t10;
+			const float t12 = t9 * t11;
+			const float t13 = fmaf(0x1.ccccccp1f /* 18/5 */, t5, t3);
+			const float t14 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t13);
+			const float t15 = b * f;
+			const float t16 = f * t15;
+			const float t17 = fmaf(t14, t16, t12);
+			const float t18 = 4.0f * t2;
+			const float t19 = fmaf(0x1.333334p1f /* 12/5 */, t7, t18);
+			const float t20 = b * t15;
+			const float t21 = t4 * t20;
+			const float t22 = fmaf(t19, t21, t17);
+			const float t23 = 0x1.99999ap-1f /* 4/5 */ * t2;
+			const float t24 = fmaf(0x1.24924ap-1f /* 4/7 */, t7, t23);
+			const float t25 = f * f;
+			const float t26 = f * t25;
+			const float t27 = t4 * t26;
+			const float t28 = fmaf(t24, t27, t22);
+			acc0 = fmaf(s, t28, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1143,49 +1143,49 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y4f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = t3 * t3;
-			const float t5 = b * f;
-			const float t6 = t5 * t5;
-			const float t7 = fmaf(t6, 2.0f, t4);
-			const float t8 = f * f;
-			const float t9 = t8 * t8;
-			const float t10 = fmaf(t9, 0x1.99999ap-3f /* 1/5 */, t7);
-			const float t11 = a * a;
-			const float t12 = a * t11;
-			const float t13 = t10 * t12;
-			const float t14 = 4.0f * t3;
-			const float t15 = fmaf(t8, 0x1.333334p1f /* 12/5 */, t14);
-			const float t16 = a * e;
-			const float t17 = a * t16;
-			const float t18 = t5 * t17;
-			const float t19 = fmaf(t15, t18, t13);
-			const float t20 = fmaf(t6, 0x1.ccccccp1f /* 18/5 */, t4);
-			const float t21 = fmaf(t9, 0x1.b6db6ep-2f /* 3/7 */, t20);
-			const float t22 = e * t16;
-			const float t23 = fmaf(t21, t22, t19);
-			const float t24 = 0x1.99999ap-1f /* 4/5 */ * t3;
-			const float t25 = fmaf(t8, 0x1.24924ap-1f /* 4/7 */, t24);
-			const float t26 = e * e;
-			const float t27 = e * t26;
-			const float t28 = t5 * t27;
-			const float t29 = fmaf(t25, t28, t23);
-			acc0 = fmaf(t2, t29, acc0);
+			const float t2 = b * b;
+			const float t3 = t2 * t2;
+			const float t4 = b * f;
+			const float t5 = t4 * t4;
+			const float t6 = fmaf(2.0f, t5, t3);
+			const float t7 = f * f;
+			const float t8 = t7 * t7;
+			const float t9 = fmaf(0x1.99999ap-3f /* 1/5 */, t8, t6);
+			const float t10 = a * a;
+			const float t11 = a * t10;
+			const float t12 = t9 * t11;
+			const float t13 = 4.0f * t2;
+			const float t14 = fmaf(0x1.333334p1f /* 12/5 */, t7, t13);
+			const float t15 = a * e;
+			const float t16 = a * t15;
+			const float t17 = t4 * t16;
+			const float t18 = fmaf(t14, t17, t12);
+			const float t19 = fmaf(0x1.ccccccp1f /* 18/5 */, t5, t3);
+			const float t20 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t19);
+			const float t21 = e * t15;
+			const float t22 = fmaf(t20, t21, t18);
+			const float t23 = 0x1.99999ap-1f /* 4/5 */ * t2;
+			const float t24 = fmaf(0x1.24924ap-1f /* 4/7 */, t7, t23);
+			const float t25 = e * e;
+			const float t26 = e * t25;
+			const float t27 = t4 * t26;
+			const float t28 = fmaf(t24, t27, t22);
+			acc0 = fmaf(s, t28, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1196,44 +1196,44 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y5f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = t3 * t3;
-			const float t5 = b * f;
-			const float t6 = t5 * t5;
-			const float t7 = fmaf(t4, 0x1.333334p-2f /* 3/10 */, t6);
-			const float t8 = f * f;
-			const float t9 = t8 * t8;
-			const float t10 = fmaf(0x1.333334p-2f /* 3/10 */, t9, t7);
-			const float t11 = a * a;
-			const float t12 = b * t11;
-			const float t13 = t10 * t12;
-			const float t14 = fmaf(t6, 0x1.333334p0f /* 6/5 */, t4);
-			const float t15 = fmaf(t9, 0x1.5f15f2p-4f /* 3/35 */, t14);
-			const float t16 = a * e;
-			const float t17 = f * t16;
-			const float t18 = fmaf(t15, t17, t13);
-			const float t19 = 0x1.99999ap-4f /* 1/10 */ * t4;
-			const float t20 = fmaf(t6, 0x1.333334p-1f /* 3/5 */, t19);
-			const float t21 = fmaf(t9, 0x1.b6db6ep-3f /* 3/14 */, t20);
-			const float t22 = e * e;
-			const float t23 = b * t22;
-			const float t24 = fmaf(t21, t23, t18);
-			acc0 = fmaf(t2, t24, acc0);
+			const float t2 = b * b;
+			const float t3 = t2 * t2;
+			const float t4 = b * f;
+			const float t5 = t4 * t4;
+			const float t6 = fmaf(0x1.333334p-2f /* 3/10 */, t3, t5);
+			const float t7 = f * f;
+			const float t8 = t7 * t7;
+			const float t9 = fmaf(0x1.333334p-2f /* 3/10 */, t8, t6);
+			const float t10 = a * a;
+			const float t11 = b * t10;
+			const float t12 = t9 * t11;
+			const float t13 = fmaf(0x1.333334p0f /* 6/5 */, t5, t3);
+			const float t14 = fmaf(0x1.5f15f2p-4f /* 3/35 */, t8, t13);
+			const float t15 = a * e;
+			const float t16 = f * t15;
+			const float t17 = fmaf(t14, t16, t12);
+			const float t18 = 0x1.99999ap-4f /* 1/10 */ * t3;
+			const float t19 = fmaf(0x1.333334p-1f /* 3/5 */, t5, t18);
+			const float t20 = fmaf(0x1.b6db6ep-3f /* 3/14 */, t8, t19);
+			const float t21 = e * e;
+			const float t22 = b * t21;
+			const float t23 = fmaf(t20, t22, t17);
+			acc0 = fmaf(s, t23, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1244,7 +1244,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y6f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
@@ -1257,17 +1257,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y6f_fma(const float *x, const float *y, float cx
 			const float t2 = b * b;
 			const float t3 = t2 * t2;
 			const float t4 = 14.0f * t3;
-			const float t5 = fmaf(t1, 28.0f, t4);
+			const float t5 = fmaf(28.0f, t1, t4);
 			const float t6 = f * f;
 			const float t7 = t6 * t6;
-			const float t8 = fmaf(t7, 6.0f, t5);
+			const float t8 = fmaf(6.0f, t7, t5);
 			const float t9 = t2 * t1;
 			const float t10 = b * t2;
 			const float t11 = t10 * t10;
 			const float t12 = 7.0f * t11;
-			const float t13 = fmaf(t9, 35.0f, t12);
+			const float t13 = fmaf(35.0f, t9, t12);
 			const float t14 = t1 * t6;
-			const float t15 = fmaf(t14, 21.0f, t13);
+			const float t15 = fmaf(21.0f, t14, t13);
 			const float t16 = f * t6;
 			const float t17 = fmaf(t16, t16, t15);
 			const float a = x0 + x1;
@@ -1276,11 +1276,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y6f_fma(const float *x, const float *y, float cx
 			const float t19 = e * t0;
 			const float t20 = fmaf(t8, t19, t18);
 			const float t21 = x0 * y1;
-			const float t22 = y0 * x1;
-			const float t23 = t21 - t22;
-			acc0 = fmaf(t23, t20, acc0);
+			const float t22 = x1 * y0;
+			const float s = t21 - t22;
+			acc0 = fmaf(s, t20, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1291,31 +1291,31 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y7f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = y0 + y1;
-			const float t4 = y1 * y1;
-			const float t5 = fmaf(y0, t3, t4);
-			const float t6 = y1 * t4;
-			const float t7 = fmaf(y0, t5, t6);
-			const float t8 = y1 * t6;
-			const float t9 = fmaf(y0, t7, t8);
-			const float t10 = y1 * t8;
-			const float t11 = fmaf(y0, t9, t10);
-			const float t12 = y1 * t10;
-			const float t13 = fmaf(y0, t11, t12);
-			const float t14 = y0 * t13;
-			const float t15 = fmaf(y1, t12, t14);
-			acc0 = fmaf(t2, t15, acc0);
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = y0 + y1;
+			const float t3 = y1 * y1;
+			const float t4 = fmaf(t2, y0, t3);
+			const float t5 = t3 * y1;
+			const float t6 = fmaf(t4, y0, t5);
+			const float t7 = t5 * y1;
+			const float t8 = fmaf(t6, y0, t7);
+			const float t9 = t7 * y1;
+			const float t10 = fmaf(t8, y0, t9);
+			const float t11 = t9 * y1;
+			const float t12 = fmaf(t10, y0, t11);
+			const float t13 = t12 * y0;
+			const float t14 = fmaf(t11, y1, t13);
+			acc0 = fmaf(s, t14, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1326,33 +1326,33 @@ EW_ATTRIBUTE_FMA void ew_ring_x8y0f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = x0 + x1;
-			const float t4 = x1 * x1;
-			const float t5 = fmaf(x0, t3, t4);
-			const float t6 = x1 * t4;
-			const float t7 = fmaf(x0, t5, t6);
-			const float t8 = x1 * t6;
-			const float t9 = fmaf(x0, t7, t8);
-			const float t10 = x1 * t8;
-			const float t11 = fmaf(x0, t9, t10);
-			const float t12 = x1 * t10;
-			const float t13 = fmaf(x0, t11, t12);
-			const float t14 = x1 * t12;
-			const float t15 = fmaf(x0, t13, t14);
-			const float t16 = x0 * t15;
-			const float t17 = fmaf(x1, t14, t16);
-			acc0 = fmaf(t2, t17, acc0);
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = x0 + x1;
+			const float t3 = x1 * x1;
+			const float t4 = fmaf(t2, x0, t3);
+			const float t5 = t3 * x1;
+			const float t6 = fmaf(t4, x0, t5);
+			const float t7 = t5 * x1;
+			const float t8 = fmaf(t6, x0, t7);
+			const float t9 = t7 * x1;
+			const float t10 = fmaf(t8, x0, t9);
+			const float t11 = t9 * x1;
+			const float t12 = fmaf(t10, x0, t11);
+			const float t13 = t11 * x1;
+			const float t14 = fmaf(t12, x0, t13);
+			const float t15 = t14 * x0;
+			const float t16 = fmaf(t13, x1, t15);
+			acc0 = fmaf(s, t16, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1363,7 +1363,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y1f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
@@ -1377,14 +1377,14 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y1f_fma(const float *x, const float *y, float cx
 			const float t3 = a * e;
 			const float t4 = t3 * t3;
 			const float t5 = t0 * t4;
-			const float t6 = fmaf(t2, 0x1.555556p-2f /* 1/3 */, t5);
+			const float t6 = fmaf(0x1.555556p-2f /* 1/3 */, t2, t5);
 			const float t7 = e * e;
 			const float t8 = t4 * t7;
-			const float t9 = fmaf(t8, 0x1.b6db6ep-2f /* 3/7 */, t6);
+			const float t9 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t6);
 			const float t10 = e * t7;
 			const float t11 = t10 * t10;
-			const float t12 = fmaf(t11, 0x1.041042p-6f /* 1/63 */, t9);
-			const float t13 = fmaf(t2, 0x1.24924ap-3f /* 1/7 */, t5);
+			const float t12 = fmaf(0x1.041042p-6f /* 1/63 */, t11, t9);
+			const float t13 = fmaf(0x1.24924ap-3f /* 1/7 */, t2, t5);
 			const float t14 = t13 + t8;
 			const float t15 = fmaf(0x1.24924ap-3f /* 1/7 */, t11, t14);
 			const float b = y0 + y1;
@@ -1394,11 +1394,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y1f_fma(const float *x, const float *y, float cx
 			const float t18 = e * f;
 			const float t19 = fmaf(t12, t18, t17);
 			const float t20 = x0 * y1;
-			const float t21 = y0 * x1;
-			const float t22 = t20 - t21;
-			acc0 = fmaf(t22, t19, acc0);
+			const float t21 = x1 * y0;
+			const float s = t20 - t21;
+			acc0 = fmaf(s, t19, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1409,7 +1409,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y2f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
@@ -1423,17 +1423,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y2f_fma(const float *x, const float *y, float cx
 			const float t3 = a * e;
 			const float t4 = t3 * t3;
 			const float t5 = t0 * t4;
-			const float t6 = fmaf(t2, 0x1.c71c72p-4f /* 1/9 */, t5);
+			const float t6 = fmaf(0x1.c71c72p-4f /* 1/9 */, t2, t5);
 			const float t7 = e * e;
 			const float t8 = t4 * t7;
-			const float t9 = fmaf(t8, 0x1.6db6dcp-1f /* 5/7 */, t6);
+			const float t9 = fmaf(0x1.6db6dcp-1f /* 5/7 */, t8, t6);
 			const float t10 = e * t7;
 			const float t11 = t10 * t10;
-			const float t12 = fmaf(t11, 0x1.2f684cp-5f /* 1/27 */, t9);
+			const float t12 = fmaf(0x1.2f684cp-5f /* 1/27 */, t11, t9);
 			const float t13 = 0x1.555556p-2f /* 1/3 */ * t2;
-			const float t14 = fmaf(t5, 0x1.aaaaaap0f /* 5/3 */, t13);
+			const float t14 = fmaf(0x1.aaaaaap0f /* 5/3 */, t5, t13);
 			const float t15 = t14 + t8;
-			const float t16 = fmaf(t11, 0x1.861862p-5f /* 1/21 */, t15);
+			const float t16 = fmaf(0x1.861862p-5f /* 1/21 */, t11, t15);
 			const float b = y0 + y1;
 			const float t17 = b * b;
 			const float t18 = t16 * t17;
@@ -1442,18 +1442,18 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y2f_fma(const float *x, const float *y, float cx
 			const float t20 = fmaf(t12, t19, t18);
 			const float t21 = t0 * t0;
 			const float t22 = 0x1.555556p0f /* 4/3 */ * t21;
-			const float t23 = fmaf(t4, 0x1.555556p1f /* 8/3 */, t22);
+			const float t23 = fmaf(0x1.555556p1f /* 8/3 */, t4, t22);
 			const float t24 = t7 * t7;
-			const float t25 = fmaf(t24, 0x1.24924ap-1f /* 4/7 */, t23);
+			const float t25 = fmaf(0x1.24924ap-1f /* 4/7 */, t24, t23);
 			const float t26 = b * f;
 			const float t27 = t3 * t26;
 			const float t28 = fmaf(t25, t27, t20);
 			const float t29 = x0 * y1;
-			const float t30 = y0 * x1;
-			const float t31 = t29 - t30;
-			acc0 = fmaf(t31, t28, acc0);
+			const float t30 = x1 * y0;
+			const float s = t29 - t30;
+			acc0 = fmaf(s, t28, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1464,52 +1464,52 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y3f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = t3 * t3;
-			const float t5 = a * e;
-			const float t6 = t5 * t5;
-			const float t7 = fmaf(t6, 0x1.aaaaaap1f /* 10/3 */, t4);
-			const float t8 = e * e;
-			const float t9 = t8 * t8;
-			const float t10 = t7 + t9;
-			const float t11 = b * b;
-			const float t12 = b * t11;
-			const float t13 = a * t12;
-			const float t14 = t10 * t13;
-			const float t15 = 6.0f * t6;
-			const float t16 = t4 + t15;
-			const float t17 = fmaf(t9, 0x1.124924p1f /* 15/7 */, t16);
-			const float t18 = b * f;
-			const float t19 = f * t18;
-			const float t20 = a * t19;
-			const float t21 = fmaf(t17, t20, t14);
-			const float t22 = fmaf(t4, 5.0f, t15);
-			const float t23 = fmaf(t9, 0x1.b6db6ep-2f /* 3/7 */, t22);
-			const float t24 = b * t18;
-			const float t25 = e * t24;
-			const float t26 = fmaf(t23, t25, t21);
-			const float t27 = fmaf(t6, 0x1.6db6dcp0f /* 10/7 */, t4);
-			const float t28 = fmaf(t9, 0x1.c71c72p-4f /* 1/9 */, t27);
-			const float t29 = f * f;
-			const float t30 = f * t29;
-			const float t31 = e * t30;
-			const float t32 = fmaf(t28, t31, t26);
-			acc0 = fmaf(t2, t32, acc0);
+			const float t2 = a * a;
+			const float t3 = t2 * t2;
+			const float t4 = a * e;
+			const float t5 = t4 * t4;
+			const float t6 = fmaf(0x1.aaaaaap1f /* 10/3 */, t5, t3);
+			const float t7 = e * e;
+			const float t8 = t7 * t7;
+			const float t9 = t6 + t8;
+			const float t10 = b * b;
+			const float t11 = b * t10;
+			const float t12 = a * t11;
+			const float t13 = t9 * t12;
+			const float t14 = 6.0f * t5;
+			const float t15 = t3 + t14;
+			const float t16 = fmaf(0x1.124924p1f /* 15/7 */, t8, t15);
+			const float t17 = b * f;
+			const float t18 = f * t17;
+			const float t19 = a * t18;
+			const float t20 = fmaf(t16, t19, t13);
+			const float t21 = fmaf(5.0f, t3, t14);
+			const float t22 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t21);
+			const float t23 = b * t17;
+			const float t24 = e * t23;
+			const float t25 = fmaf(t22, t24, t20);
+			const float t26 = fmaf(0x1.6db6dcp0f /* 10/7 */, t5, t3);
+			const float t27 = fmaf(0x1.c71c72p-4f /* 1/9 */, t8, t26);
+			const float t28 = f * f;
+			const float t29 = f * t28;
+			const float t30 = e * t29;
+			const float t31 = fmaf(t27, t30, t25);
+			acc0 = fmaf(s, t31, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1520,54 +1520,54 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y4f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = t3 * t3;
-			const float t5 = b * f;
-			const float t6 = t5 * t5;
-			const float t7 = fmaf(t4, 0x1.000000p-1f /* 1/2 */, t6);
-			const float t8 = f * f;
-			const float t9 = t8 * t8;
-			const float t10 = fmaf(t9, 0x1.99999ap-4f /* 1/10 */, t7);
-			const float t11 = a * a;
-			const float t12 = t11 * t11;
-			const float t13 = t10 * t12;
-			const float t14 = 0x1.555556p1f /* 8/3 */ * t3;
-			const float t15 = fmaf(t8, 0x1.99999ap0f /* 8/5 */, t14);
-			const float t16 = a * e;
-			const float t17 = t11 * t16;
-			const float t18 = t5 * t17;
-			const float t19 = fmaf(t15, t18, t13);
-			const float t20 = fmaf(t6, 0x1.ccccccp1f /* 18/5 */, t4);
-			const float t21 = fmaf(t9, 0x1.b6db6ep-2f /* 3/7 */, t20);
-			const float t22 = t16 * t16;
-			const float t23 = fmaf(t21, t22, t19);
-			const float t24 = 0x1.99999ap0f /* 8/5 */ * t3;
-			const float t25 = fmaf(t8, 0x1.24924ap0f /* 8/7 */, t24);
-			const float t26 = e * e;
-			const float t27 = t16 * t26;
-			const float t28 = t5 * t27;
-			const float t29 = fmaf(t25, t28, t23);
-			const float t30 = 0x1.99999ap-4f /* 1/10 */ * t4;
-			const float t31 = fmaf(t6, 0x1.b6db6ep-2f /* 3/7 */, t30);
-			const float t32 = fmaf(t9, 0x1.c71c72p-5f /* 1/18 */, t31);
-			const float t33 = t26 * t26;
-			const float t34 = fmaf(t32, t33, t29);
-			acc0 = fmaf(t2, t34, acc0);
+			const float t2 = b * b;
+			const float t3 = t2 * t2;
+			const float t4 = b * f;
+			const float t5 = t4 * t4;
+			const float t6 = fmaf(0.5f, t3, t5);
+			const float t7 = f * f;
+			const float t8 = t7 * t7;
+			const float t9 = fmaf(0x1.99999ap-4f /* 1/10 */, t8, t6);
+			const float t10 = a * a;
+			const float t11 = t10 * t10;
+			const float t12 = t9 * t11;
+			const float t13 = 0x1.555556p1f /* 8/3 */ * t2;
+			const float t14 = fmaf(0x1.99999ap0f /* 8/5 */, t7, t13);
+			const float t15 = a * e;
+			const float t16 = t10 * t15;
+			const float t17 = t4 * t16;
+			const float t18 = fmaf(t14, t17, t12);
+			const float t19 = fmaf(0x1.ccccccp1f /* 18/5 */, t5, t3);
+			const float t20 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t19);
+			const float t21 = t15 * t15;
+			const float t22 = fmaf(t20, t21, t18);
+			const float t23 = 0x1.99999ap0f /* 8/5 */ * t2;
+			const float t24 = fmaf(0x1.24924ap0f /* 8/7 */, t7, t23);
+			const float t25 = e * e;
+			const float t26 = t15 * t25;
+			const float t27 = t4 * t26;
+			const float t28 = fmaf(t24, t27, t22);
+			const float t29 = 0x1.99999ap-4f /* 1/10 */ * t3;
+			const float t30 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t5, t29);
+			const float t31 = fmaf(0x1.c71c72p-5f /* 1/18 */, t8, t30);
+			const float t32 = t25 * t25;
+			const float t33 = fmaf(t31, t32, t28);
+			acc0 = fmaf(s, t33, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1578,52 +1578,52 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y5f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = t3 * t3;
-			const float t5 = b * f;
-			const float t6 = t5 * t5;
-			const float t7 = fmaf(t6, 0x1.aaaaaap1f /* 10/3 */, t4);
-			const float t8 = f * f;
-			const float t9 = t8 * t8;
-			const float t10 = t7 + t9;
-			const float t11 = a * a;
-			const float t12 = a * t11;
-			const float t13 = b * t12;
-			const float t14 = t10 * t13;
-			const float t15 = 6.0f * t6;
-			const float t16 = fmaf(t4, 5.0f, t15);
-			const float t17 = fmaf(t9, 0x1.b6db6ep-2f /* 3/7 */, t16);
-			const float t18 = a * e;
-			const float t19 = a * t18;
-			const float t20 = f * t19;
-			const float t21 = fmaf(t17, t20, t14);
-			const float t22 = t4 + t15;
-			const float t23 = fmaf(t9, 0x1.124924p1f /* 15/7 */, t22);
-			const float t24 = e * t18;
-			const float t25 = b * t24;
-			const float t26 = fmaf(t23, t25, t21);
-			const float t27 = fmaf(t6, 0x1.6db6dcp0f /* 10/7 */, t4);
-			const float t28 = fmaf(t9, 0x1.c71c72p-4f /* 1/9 */, t27);
-			const float t29 = e * e;
-			const float t30 = e * t29;
-			const float t31 = f * t30;
-			const float t32 = fmaf(t28, t31, t26);
-			acc0 = fmaf(t2, t32, acc0);
+			const float t2 = b * b;
+			const float t3 = t2 * t2;
+			const float t4 = b * f;
+			const float t5 = t4 * t4;
+			const float t6 = fmaf(0x1.aaaaaap1f /* 10/3 */, t5, t3);
+			const float t7 = f * f;
+			const float t8 = t7 * t7;
+			const float t9 = t6 + t8;
+			const float t10 = a * a;
+			const float t11 = a * t10;
+			const float t12 = b * t11;
+			const float t13 = t9 * t12;
+			const float t14 = 6.0f * t5;
+			const float t15 = fmaf(5.0f, t3, t14);
+			const float t16 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t15);
+			const float t17 = a * e;
+			const float t18 = a * t17;
+			const float t19 = f * t18;
+			const float t20 = fmaf(t16, t19, t13);
+			const float t21 = t3 + t14;
+			const float t22 = fmaf(0x1.124924p1f /* 15/7 */, t8, t21);
+			const float t23 = e * t17;
+			const float t24 = b * t23;
+			const float t25 = fmaf(t22, t24, t20);
+			const float t26 = fmaf(0x1.6db6dcp0f /* 10/7 */, t5, t3);
+			const float t27 = fmaf(0x1.c71c72p-4f /* 1/9 */, t8, t26);
+			const float t28 = e * e;
+			const float t29 = e * t28;
+			const float t30 = f * t29;
+			const float t31 = fmaf(t27, t30, t25);
+			acc0 = fmaf(s, t31, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1634,7 +1634,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y6f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
@@ -1647,20 +1647,20 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y6f_fma(const float *x, const float *y, float cx
 			const float t2 = b * b;
 			const float t3 = t2 * t2;
 			const float t4 = 0x1.555556p0f /* 4/3 */ * t3;
-			const float t5 = fmaf(t1, 0x1.555556p1f /* 8/3 */, t4);
+			const float t5 = fmaf(0x1.555556p1f /* 8/3 */, t1, t4);
 			const float t6 = f * f;
 			const float t7 = t6 * t6;
-			const float t8 = fmaf(t7, 0x1.24924ap-1f /* 4/7 */, t5);
+			const float t8 = fmaf(0x1.24924ap-1f /* 4/7 */, t7, t5);
 			const float t9 = t2 * t1;
 			const float t10 = b * t2;
 			const float t11 = t10 * t10;
 			const float t12 = 0x1.555556p-2f /* 1/3 */ * t11;
-			const float t13 = fmaf(t9, 0x1.aaaaaap0f /* 5/3 */, t12);
+			const float t13 = fmaf(0x1.aaaaaap0f /* 5/3 */, t9, t12);
 			const float t14 = t1 * t6;
 			const float t15 = t13 + t14;
 			const float t16 = f * t6;
 			const float t17 = t16 * t16;
-			const float t18 = fmaf(t17, 0x1.861862p-5f /* 1/21 */, t15);
+			const float t18 = fmaf(0x1.861862p-5f /* 1/21 */, t17, t15);
 			const float a = x0 + x1;
 			const float t19 = a * a;
 			const float t20 = t18 * t19;
@@ -1668,17 +1668,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y6f_fma(const float *x, const float *y, float cx
 			const float t21 = a * e;
 			const float t22 = t0 * t21;
 			const float t23 = fmaf(t8, t22, t20);
-			const float t24 = fmaf(t11, 0x1.c71c72p-4f /* 1/9 */, t9);
-			const float t25 = fmaf(t14, 0x1.6db6dcp-1f /* 5/7 */, t24);
-			const float t26 = fmaf(t17, 0x1.2f684cp-5f /* 1/27 */, t25);
+			const float t24 = fmaf(0x1.c71c72p-4f /* 1/9 */, t11, t9);
+			const float t25 = fmaf(0x1.6db6dcp-1f /* 5/7 */, t14, t24);
+			const float t26 = fmaf(0x1.2f684cp-5f /* 1/27 */, t17, t25);
 			const float t27 = e * e;
 			const float t28 = fmaf(t26, t27, t23);
 			const float t29 = x0 * y1;
-			const float t30 = y0 * x1;
-			const float t31 = t29 - t30;
-			acc0 = fmaf(t31, t28, acc0);
+			const float t30 = x1 * y0;
+			const float s = t29 - t30;
+			acc0 = fmaf(s, t28, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1689,7 +1689,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y7f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
@@ -1703,14 +1703,14 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y7f_fma(const float *x, const float *y, float cx
 			const float t3 = b * f;
 			const float t4 = t3 * t3;
 			const float t5 = t0 * t4;
-			const float t6 = fmaf(t2, 0x1.555556p-2f /* 1/3 */, t5);
+			const float t6 = fmaf(0x1.555556p-2f /* 1/3 */, t2, t5);
 			const float t7 = f * f;
 			const float t8 = t4 * t7;
-			const float t9 = fmaf(t8, 0x1.b6db6ep-2f /* 3/7 */, t6);
+			const float t9 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t6);
 			const float t10 = f * t7;
 			const float t11 = t10 * t10;
-			const float t12 = fmaf(t11, 0x1.041042p-6f /* 1/63 */, t9);
-			const float t13 = fmaf(t2, 0x1.24924ap-3f /* 1/7 */, t5);
+			const float t12 = fmaf(0x1.041042p-6f /* 1/63 */, t11, t9);
+			const float t13 = fmaf(0x1.24924ap-3f /* 1/7 */, t2, t5);
 			const float t14 = t13 + t8;
 			const float t15 = fmaf(0x1.24924ap-3f /* 1/7 */, t11, t14);
 			const float a = x0 + x1;
@@ -1720,11 +1720,11 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y7f_fma(const float *x, const float *y, float cx
 			const float t18 = e * f;
 			const float t19 = fmaf(t12, t18, t17);
 			const float t20 = x0 * y1;
-			const float t21 = y0 * x1;
-			const float t22 = t20 - t21;
-			acc0 = fmaf(t22, t19, acc0);
+			const float t21 = x1 * y0;
+			const float s = t20 - t21;
+			acc0 = fmaf(s, t19, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1735,33 +1735,33 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y8f_fma(const float *x, const float *y, float cx
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = y0 + y1;
-			const float t4 = y1 * y1;
-			const float t5 = fmaf(y0, t3, t4);
-			const float t6 = y1 * t4;
-			const float t7 = fmaf(y0, t5, t6);
-			const float t8 = y1 * t6;
-			const float t9 = fmaf(y0, t7, t8);
-			const float t10 = y1 * t8;
-			const float t11 = fmaf(y0, t9, t10);
-			const float t12 = y1 * t10;
-			const float t13 = fmaf(y0, t11, t12);
-			const float t14 = y1 * t12;
-			const float t15 = fmaf(y0, t13, t14);
-			const float t16 = y0 * t15;
-			const float t17 = fmaf(y1, t14, t16);
-			acc0 = fmaf(t2, t17, acc0);
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = y0 + y1;
+			const float t3 = y1 * y1;
+			const float t4 = fmaf(t2, y0, t3);
+			const float t5 = t3 * y1;
+			const float t6 = fmaf(t4, y0, t5);
+			const float t7 = t5 * y1;
+			const float t8 = fmaf(t6, y0, t7);
+			const float t9 = t7 * y1;
+			const float t10 = fmaf(t8, y0, t9);
+			const float t11 = t9 * y1;
+			const float t12 = fmaf(t10, y0, t11);
+			const float t13 = t11 * y1;
+			const float t14 = fmaf(t12, y0, t13);
+			const float t15 = t14 * y0;
+			const float t16 = fmaf(t13, y1, t15);
+			acc0 = fmaf(s, t16, acc0);
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 

@@ -16,18 +16,18 @@ void ew_ring_x0y0f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			acc0 = t2 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			acc0 = acc0 + s;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -38,20 +38,20 @@ void ew_ring_x1y0f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = x0 + x1;
-			const float t4 = t2 * t3;
-			acc0 = t4 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = x0 + x1;
+			const float t3 = s * t2;
+			acc0 = acc0 + t3;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -62,20 +62,20 @@ void ew_ring_x0y1f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = y0 + y1;
-			const float t4 = t2 * t3;
-			acc0 = t4 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = y0 + y1;
+			const float t3 = s * t2;
+			acc0 = acc0 + t3;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -86,23 +86,23 @@ void ew_ring_x2y0f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = x0 + x1;
-			const float t4 = x0 * t3;
-			const float t5 = x1 * x1;
-			const float t6 = t4 + t5;
-			const float t7 = t2 * t6;
-			acc0 = t7 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = x0 + x1;
+			const float t3 = t2 * x0;
+			const float t4 = x1 * x1;
+			const float t5 = t3 + t4;
+			const float t6 = s * t5;
+			acc0 = acc0 + t6;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -113,26 +113,26 @@ void ew_ring_x1y1f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = 2.0f * y0;
-			const float t4 = y1 + t3;
-			const float t5 = x0 * t4;
-			const float t6 = 2.0f * y1;
-			const float t7 = y0 + t6;
-			const float t8 = x1 * t7;
-			const float t9 = t5 + t8;
-			const float t10 = t2 * t9;
-			acc0 = t10 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = 2.0f * y0;
+			const float t3 = t2 + y1;
+			const float t4 = t3 * x0;
+			const float t5 = 2.0f * y1;
+			const float t6 = t5 + y0;
+			const float t7 = t6 * x1;
+			const float t8 = t4 + t7;
+			const float t9 = s * t8;
+			acc0 = acc0 + t9;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -143,23 +143,23 @@ void ew_ring_x0y2f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = y0 + y1;
-			const float t4 = y0 * t3;
-			const float t5 = y1 * y1;
-			const float t6 = t4 + t5;
-			const float t7 = t2 * t6;
-			acc0 = t7 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = y0 + y1;
+			const float t3 = t2 * y0;
+			const float t4 = y1 * y1;
+			const float t5 = t3 + t4;
+			const float t6 = s * t5;
+			acc0 = acc0 + t6;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -170,25 +170,25 @@ void ew_ring_x3y0f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
-			const float t3 = a * a;
-			const float t4 = e * e;
-			const float t5 = t3 + t4;
-			const float t6 = a * t5;
-			const float t7 = t2 * t6;
-			acc0 = t7 + acc0;
+			const float t2 = a * a;
+			const float t3 = e * e;
+			const float t4 = t2 + t3;
+			const float t5 = a * t4;
+			const float t6 = s * t5;
+			acc0 = acc0 + t6;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -199,32 +199,32 @@ void ew_ring_x2y1f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = 3.0f * t3;
-			const float t5 = e * e;
-			const float t6 = t4 + t5;
-			const float t7 = b * t6;
-			const float t8 = a * e;
-			const float t9 = f * t8;
-			const float t10 = 2.0f * t9;
-			const float t11 = t7 + t10;
-			const float t12 = t2 * t11;
-			acc0 = t12 + acc0;
+			const float t2 = a * a;
+			const float t3 = 3.0f * t2;
+			const float t4 = e * e;
+			const float t5 = t3 + t4;
+			const float t6 = b * t5;
+			const float t7 = a * e;
+			const float t8 = f * t7;
+			const float t9 = 2.0f * t8;
+			const float t10 = t6 + t9;
+			const float t11 = s * t10;
+			acc0 = acc0 + t11;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -235,32 +235,32 @@ void ew_ring_x1y2f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = 3.0f * t3;
-			const float t5 = f * f;
-			const float t6 = t4 + t5;
-			const float t7 = a * t6;
-			const float t8 = b * f;
-			const float t9 = e * t8;
-			const float t10 = 2.0f * t9;
-			const float t11 = t7 + t10;
-			const float t12 = t2 * t11;
-			acc0 = t12 + acc0;
+			const float t2 = b * b;
+			const float t3 = 3.0f * t2;
+			const float t4 = f * f;
+			const float t5 = t3 + t4;
+			const float t6 = a * t5;
+			const float t7 = b * f;
+			const float t8 = e * t7;
+			const float t9 = 2.0f * t8;
+			const float t10 = t6 + t9;
+			const float t11 = s * t10;
+			acc0 = acc0 + t11;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -271,25 +271,25 @@ void ew_ring_x0y3f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = f * f;
-			const float t5 = t3 + t4;
-			const float t6 = b * t5;
-			const float t7 = t2 * t6;
-			acc0 = t7 + acc0;
+			const float t2 = b * b;
+			const float t3 = f * f;
+			const float t4 = t2 + t3;
+			const float t5 = b * t4;
+			const float t6 = s * t5;
+			acc0 = acc0 + t6;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -300,29 +300,29 @@ void ew_ring_x4y0f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = x0 + x1;
-			const float t4 = x0 * t3;
-			const float t5 = x1 * x1;
-			const float t6 = t4 + t5;
-			const float t7 = x0 * t6;
-			const float t8 = x1 * t5;
-			const float t9 = t7 + t8;
-			const float t10 = x0 * t9;
-			const float t11 = x1 * t8;
-			const float t12 = t10 + t11;
-			const float t13 = t2 * t12;
-			acc0 = t13 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = x0 + x1;
+			const float t3 = t2 * x0;
+			const float t4 = x1 * x1;
+			const float t5 = t3 + t4;
+			const float t6 = t5 * x0;
+			const float t7 = t4 * x1;
+			const float t8 = t6 + t7;
+			const float t9 = t8 * x0;
+			const float t10 = t7 * x1;
+			const float t11 = t9 + t10;
+			const float t12 = s * t11;
+			acc0 = acc0 + t12;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -333,33 +333,33 @@ void ew_ring_x3y1f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = e * e;
-			const float t5 = t3 + t4;
-			const float t6 = a * b;
-			const float t7 = t5 * t6;
-			const float t8 = 0x1.99999ap-3f /* 1/5 */ * t4;
-			const float t9 = t3 + t8;
-			const float t10 = e * f;
-			const float t11 = t9 * t10;
-			const float t12 = t7 + t11;
-			const float t13 = t2 * t12;
-			acc0 = t13 + acc0;
+			const float t2 = a * a;
+			const float t3 = e * e;
+			const float t4 = t2 + t3;
+			const float t5 = a * b;
+			const float t6 = t4 * t5;
+			const float t7 = 0x1.99999ap-3f /* 1/5 */ * t3;
+			const float t8 = t2 + t7;
+			const float t9 = e * f;
+			const float t10 = t8 * t9;
+			const float t11 = t6 + t10;
+			const float t12 = s * t11;
+			acc0 = acc0 + t12;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -370,39 +370,39 @@ void ew_ring_x2y2f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = 3.0f * t3;
-			const float t5 = f * f;
-			const float t6 = t4 + t5;
-			const float t7 = a * a;
-			const float t8 = t6 * t7;
-			const float t9 = a * e;
-			const float t10 = b * f;
-			const float t11 = t9 * t10;
-			const float t12 = 4.0f * t11;
-			const float t13 = t8 + t12;
-			const float t14 = 0x1.333334p-1f /* 3/5 */ * t5;
-			const float t15 = t3 + t14;
-			const float t16 = e * e;
-			const float t17 = t15 * t16;
-			const float t18 = t13 + t17;
-			const float t19 = t2 * t18;
-			acc0 = t19 + acc0;
+			const float t2 = b * b;
+			const float t3 = 3.0f * t2;
+			const float t4 = f * f;
+			const float t5 = t3 + t4;
+			const float t6 = a * a;
+			const float t7 = t5 * t6;
+			const float t8 = a * e;
+			const float t9 = b * f;
+			const float t10 = t8 * t9;
+			const float t11 = 4.0f * t10;
+			const float t12 = t7 + t11;
+			const float t13 = 0x1.333334p-1f /* 3/5 */ * t4;
+			const float t14 = t2 + t13;
+			const float t15 = e * e;
+			const float t16 = t14 * t15;
+			const float t17 = t12 + t16;
+			const float t18 = s * t17;
+			acc0 = acc0 + t18;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -413,33 +413,33 @@ void ew_ring_x1y3f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = f * f;
-			const float t5 = t3 + t4;
-			const float t6 = a * b;
-			const float t7 = t5 * t6;
-			const float t8 = 0x1.99999ap-3f /* 1/5 */ * t4;
-			const float t9 = t3 + t8;
-			const float t10 = e * f;
-			const float t11 = t9 * t10;
-			const float t12 = t7 + t11;
-			const float t13 = t2 * t12;
-			acc0 = t13 + acc0;
+			const float t2 = b * b;
+			const float t3 = f * f;
+			const float t4 = t2 + t3;
+			const float t5 = a * b;
+			const float t6 = t4 * t5;
+			const float t7 = 0x1.99999ap-3f /* 1/5 */ * t3;
+			const float t8 = t2 + t7;
+			const float t9 = e * f;
+			const float t10 = t8 * t9;
+			const float t11 = t6 + t10;
+			const float t12 = s * t11;
+			acc0 = acc0 + t12;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -450,29 +450,29 @@ void ew_ring_x0y4f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = y0 + y1;
-			const float t4 = y0 * t3;
-			const float t5 = y1 * y1;
-			const float t6 = t4 + t5;
-			const float t7 = y0 * t6;
-			const float t8 = y1 * t5;
-			const float t9 = t7 + t8;
-			const float t10 = y0 * t9;
-			const float t11 = y1 * t8;
-			const float t12 = t10 + t11;
-			const float t13 = t2 * t12;
-			acc0 = t13 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = y0 + y1;
+			const float t3 = t2 * y0;
+			const float t4 = y1 * y1;
+			const float t5 = t3 + t4;
+			const float t6 = t5 * y0;
+			const float t7 = t4 * y1;
+			const float t8 = t6 + t7;
+			const float t9 = t8 * y0;
+			const float t10 = t7 * y1;
+			const float t11 = t9 + t10;
+			const float t12 = s * t11;
+			acc0 = acc0 + t12;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -483,32 +483,32 @@ void ew_ring_x5y0f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = x0 + x1;
-			const float t4 = x0 * t3;
-			const float t5 = x1 * x1;
-			const float t6 = t4 + t5;
-			const float t7 = x0 * t6;
-			const float t8 = x1 * t5;
-			const float t9 = t7 + t8;
-			const float t10 = x0 * t9;
-			const float t11 = x1 * t8;
-			const float t12 = t10 + t11;
-			const float t13 = x0 * t12;
-			const float t14 = x1 * t11;
-			const float t15 = t13 + t14;
-			const float t16 = t2 * t15;
-			acc0 = t16 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = x0 + x1;
+			const float t3 = t2 * x0;
+			const float t4 = x1 * x1;
+			const float t5 = t3 + t4;
+			const float t6 = t5 * x0;
+			const float t7 = t4 * x1;
+			const float t8 = t6 + t7;
+			const float t9 = t8 * x0;
+			const float t10 = t7 * x1;
+			const float t11 = t9 + t10;
+			const float t12 = t11 * x0;
+			const float t13 = t10 * x1;
+			const float t14 = t12 + t13;
+			const float t15 = s * t14;
+			acc0 = acc0 + t15;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -519,40 +519,40 @@ void ew_ring_x4y1f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = t3 * t3;
-			const float t5 = a * e;
-			const float t6 = t5 * t5;
-			const float t7 = 2.0f * t6;
-			const float t8 = t4 + t7;
-			const float t9 = e * e;
-			const float t10 = t9 * t9;
-			const float t11 = 0x1.99999ap-3f /* 1/5 */ * t10;
-			const float t12 = t8 + t11;
-			const float t13 = b * t12;
-			const float t14 = 0x1.555556p0f /* 4/3 */ * t3;
-			const float t15 = 0x1.99999ap-1f /* 4/5 */ * t9;
-			const float t16 = t14 + t15;
-			const float t17 = f * t5;
-			const float t18 = t16 * t17;
-			const float t19 = t13 + t18;
-			const float t20 = t2 * t19;
-			acc0 = t20 + acc0;
+			const float t2 = a * a;
+			const float t3 = t2 * t2;
+			const float t4 = a * e;
+			const float t5 = t4 * t4;
+			const float t6 = 2.0f * t5;
+			const float t7 = t3 + t6;
+			const float t8 = e * e;
+			const float t9 = t8 * t8;
+			const float t10 = 0x1.99999ap-3f /* 1/5 */ * t9;
+			const float t11 = t7 + t10;
+			const float t12 = b * t11;
+			const float t13 = 0x1.555556p0f /* 4/3 */ * t2;
+			const float t14 = 0x1.99999ap-1f /* 4/5 */ * t8;
+			const float t15 = t13 + t14;
+			const float t16 = f * t4;
+			const float t17 = t15 * t16;
+			const float t18 = t12 + t17;
+			const float t19 = s * t18;
+			acc0 = acc0 + t19;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -563,43 +563,43 @@ void ew_ring_x3y2f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = e * e;
-			const float t5 = t3 + t4;
-			const float t6 = b * b;
-			const float t7 = a * t6;
-			const float t8 = t5 * t7;
-			const float t9 = 0x1.555556p-2f /* 1/3 */ * t3;
-			const float t10 = 0x1.333334p-1f /* 3/5 */ * t4;
-			const float t11 = t9 + t10;
-			const float t12 = f * f;
-			const float t13 = a * t12;
-			const float t14 = t11 * t13;
-			const float t15 = t8 + t14;
-			const float t16 = 2.0f * t3;
-			const float t17 = 0x1.99999ap-2f /* 2/5 */ * t4;
-			const float t18 = t16 + t17;
-			const float t19 = b * f;
-			const float t20 = e * t19;
-			const float t21 = t18 * t20;
-			const float t22 = t15 + t21;
-			const float t23 = t2 * t22;
-			acc0 = t23 + acc0;
+			const float t2 = a * a;
+			const float t3 = e * e;
+			const float t4 = t2 + t3;
+			const float t5 = b * b;
+			const float t6 = a * t5;
+			const float t7 = t4 * t6;
+			const float t8 = 0x1.555556p-2f /* 1/3 */ * t2;
+			const float t9 = 0x1.333334p-1f /* 3/5 */ * t3;
+			const float t10 = t8 + t9;
+			const float t11 = f * f;
+			const float t12 = a * t11;
+			const float t13 = t10 * t12;
+			const float t14 = t7 + t13;
+			const float t15 = 2.0f * t2;
+			const float t16 = 0x1.99999ap-2f /* 2/5 */ * t3;
+			const float t17 = t15 + t16;
+			const float t18 = b * f;
+			const float t19 = e * t18;
+			const float t20 = t17 * t19;
+			const float t21 = t14 + t20;
+			const float t22 = s * t21;
+			acc0 = acc0 + t22;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -610,43 +610,43 @@ void ew_ring_x2y3f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = f * f;
-			const float t5 = t3 + t4;
-			const float t6 = a * a;
-			const float t7 = b * t6;
-			const float t8 = t5 * t7;
-			const float t9 = 2.0f * t3;
-			const float t10 = 0x1.99999ap-2f /* 2/5 */ * t4;
-			const float t11 = t9 + t10;
-			const float t12 = a * e;
-			const float t13 = f * t12;
-			const float t14 = t11 * t13;
-			const float t15 = t8 + t14;
-			const float t16 = 0x1.555556p-2f /* 1/3 */ * t3;
-			const float t17 = 0x1.333334p-1f /* 3/5 */ * t4;
-			const float t18 = t16 + t17;
-			const float t19 = e * e;
-			const float t20 = b * t19;
-			const float t21 = t18 * t20;
-			const float t22 = t15 + t21;
-			const float t23 = t2 * t22;
-			acc0 = t23 + acc0;
+			const float t2 = b * b;
+			const float t3 = f * f;
+			const float t4 = t2 + t3;
+			const float t5 = a * a;
+			const float t6 = b * t5;
+			const float t7 = t4 * t6;
+			const float t8 = 2.0f * t2;
+			const float t9 = 0x1.99999ap-2f /* 2/5 */ * t3;
+			const float t10 = t8 + t9;
+			const float t11 = a * e;
+			const float t12 = f * t11;
+			const float t13 = t10 * t12;
+			const float t14 = t7 + t13;
+			const float t15 = 0x1.555556p-2f /* 1/3 */ * t2;
+			const float t16 = 0x1.333334p-1f /* 3/5 */ * t3;
+			const float t17 = t15 + t16;
+			const float t18 = e * e;
+			const float t19 = b * t18;
+			const float t20 = t17 * t19;
+			const float t21 = t14 + t20;
+			const float t22 = s * t21;
+			acc0 = acc0 + t22;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -657,40 +657,40 @@ void ew_ring_x1y4f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = t3 * t3;
-			const float t5 = b * f;
-			const float t6 = t5 * t5;
-			const float t7 = 2.0f * t6;
-			const float t8 = t4 + t7;
-			const float t9 = f * f;
-			const float t10 = t9 * t9;
-			const float t11 = 0x1.99999ap-3f /* 1/5 */ * t10;
-			const float t12 = t8 + t11;
-			const float t13 = a * t12;
-			const float t14 = 0x1.555556p0f /* 4/3 */ * t3;
-			const float t15 = 0x1.99999ap-1f /* 4/5 */ * t9;
-			const float t16 = t14 + t15;
-			const float t17 = e * t5;
-			const float t18 = t16 * t17;
-			const float t19 = t13 + t18;
-			const float t20 = t2 * t19;
-			acc0 = t20 + acc0;
+			const float t2 = b * b;
+			const float t3 = t2 * t2;
+			const float t4 = b * f;
+			const float t5 = t4 * t4;
+			const float t6 = 2.0f * t5;
+			const float t7 = t3 + t6;
+			const float t8 = f * f;
+			const float t9 = t8 * t8;
+			const float t10 = 0x1.99999ap-3f /* 1/5 */ * t9;
+			const float t11 = t7 + t10;
+			const float t12 = a * t11;
+			const float t13 = 0x1.555556p0f /* 4/3 */ * t2;
+			const float t14 = 0x1.99999ap-1f /* 4/5 */ * t8;
+			const float t15 = t13 + t14;
+			const float t16 = e * t4;
+			const float t17 = t15 * t16;
+			const float t18 = t12 + t17;
+			const float t19 = s * t18;
+			acc0 = acc0 + t19;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -701,32 +701,32 @@ void ew_ring_x0y5f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = y0 + y1;
-			const float t4 = y0 * t3;
-			const float t5 = y1 * y1;
-			const float t6 = t4 + t5;
-			const float t7 = y0 * t6;
-			const float t8 = y1 * t5;
-			const float t9 = t7 + t8;
-			const float t10 = y0 * t9;
-			const float t11 = y1 * t8;
-			const float t12 = t10 + t11;
-			const float t13 = y0 * t12;
-			const float t14 = y1 * t11;
-			const float t15 = t13 + t14;
-			const float t16 = t2 * t15;
-			acc0 = t16 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = y0 + y1;
+			const float t3 = t2 * y0;
+			const float t4 = y1 * y1;
+			const float t5 = t3 + t4;
+			const float t6 = t5 * y0;
+			const float t7 = t4 * y1;
+			const float t8 = t6 + t7;
+			const float t9 = t8 * y0;
+			const float t10 = t7 * y1;
+			const float t11 = t9 + t10;
+			const float t12 = t11 * y0;
+			const float t13 = t10 * y1;
+			const float t14 = t12 + t13;
+			const float t15 = s * t14;
+			acc0 = acc0 + t15;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -737,35 +737,35 @@ void ew_ring_x6y0f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = x0 + x1;
-			const float t4 = x0 * t3;
-			const float t5 = x1 * x1;
-			const float t6 = t4 + t5;
-			const float t7 = x0 * t6;
-			const float t8 = x1 * t5;
-			const float t9 = t7 + t8;
-			const float t10 = x0 * t9;
-			const float t11 = x1 * t8;
-			const float t12 = t10 + t11;
-			const float t13 = x0 * t12;
-			const float t14 = x1 * t11;
-			const float t15 = t13 + t14;
-			const float t16 = x0 * t15;
-			const float t17 = x1 * t14;
-			const float t18 = t16 + t17;
-			const float t19 = t2 * t18;
-			acc0 = t19 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = x0 + x1;
+			const float t3 = t2 * x0;
+			const float t4 = x1 * x1;
+			const float t5 = t3 + t4;
+			const float t6 = t5 * x0;
+			const float t7 = t4 * x1;
+			const float t8 = t6 + t7;
+			const float t9 = t8 * x0;
+			const float t10 = t7 * x1;
+			const float t11 = t9 + t10;
+			const float t12 = t11 * x0;
+			const float t13 = t10 * x1;
+			const float t14 = t12 + t13;
+			const float t15 = t14 * x0;
+			const float t16 = t13 * x1;
+			const float t17 = t15 + t16;
+			const float t18 = s * t17;
+			acc0 = acc0 + t18;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -776,42 +776,42 @@ void ew_ring_x5y1f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = t3 * t3;
-			const float t5 = a * e;
-			const float t6 = t5 * t5;
-			const float t7 = 0x1.aaaaaap1f /* 10/3 */ * t6;
-			const float t8 = t4 + t7;
-			const float t9 = e * e;
-			const float t10 = t9 * t9;
-			const float t11 = t8 + t10;
-			const float t12 = a * b;
-			const float t13 = t11 * t12;
-			const float t14 = 0x1.aaaaaap0f /* 5/3 */ * t4;
-			const float t15 = 2.0f * t6;
-			const float t16 = t14 + t15;
-			const float t17 = 0x1.24924ap-3f /* 1/7 */ * t10;
-			const float t18 = t16 + t17;
-			const float t19 = e * f;
-			const float t20 = t18 * t19;
-			const float t21 = t13 + t20;
-			const float t22 = t2 * t21;
-			acc0 = t22 + acc0;
+			const float t2 = a * a;
+			const float t3 = t2 * t2;
+			const float t4 = a * e;
+			const float t5 = t4 * t4;
+			const float t6 = 0x1.aaaaaap1f /* 10/3 */ * t5;
+			const float t7 = t3 + t6;
+			const float t8 = e * e;
+			const float t9 = t8 * t8;
+			const float t10 = t7 + t9;
+			const float t11 = a * b;
+			const float t12 = t10 * t11;
+			const float t13 = 0x1.aaaaaap0f /* 5/3 */ * t3;
+			const float t14 = 2.0f * t5;
+			const float t15 = t13 + t14;
+			const float t16 = 0x1.24924ap-3f /* 1/7 */ * t9;
+			const float t17 = t15 + t16;
+			const float t18 = e * f;
+			const float t19 = t17 * t18;
+			const float t20 = t12 + t19;
+			const float t21 = s * t20;
+			acc0 = acc0 + t21;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -822,50 +822,50 @@ void ew_ring_x4y2f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = t3 * t3;
-			const float t5 = a * e;
-			const float t6 = t5 * t5;
-			const float t7 = 2.0f * t6;
-			const float t8 = t4 + t7;
-			const float t9 = e * e;
-			const float t10 = t9 * t9;
-			const float t11 = 0x1.99999ap-3f /* 1/5 */ * t10;
-			const float t12 = t8 + t11;
-			const float t13 = b * b;
-			const float t14 = t12 * t13;
-			const float t15 = 0x1.555556p-2f /* 1/3 */ * t4;
-			const float t16 = 0x1.333334p0f /* 6/5 */ * t6;
-			const float t17 = t15 + t16;
-			const float t18 = 0x1.24924ap-3f /* 1/7 */ * t10;
-			const float t19 = t17 + t18;
-			const float t20 = f * f;
-			const float t21 = t19 * t20;
-			const float t22 = t14 + t21;
-			const float t23 = 0x1.555556p1f /* 8/3 */ * t3;
-			const float t24 = 0x1.99999ap0f /* 8/5 */ * t9;
-			const float t25 = t23 + t24;
-			const float t26 = b * f;
-			const float t27 = t5 * t26;
-			const float t28 = t25 * t27;
-			const float t29 = t22 + t28;
-			const float t30 = t2 * t29;
-			acc0 = t30 + acc0;
+			const float t2 = a * a;
+			const float t3 = t2 * t2;
+			const float t4 = a * e;
+			const float t5 = t4 * t4;
+			const float t6 = 2.0f * t5;
+			const float t7 = t3 + t6;
+			const float t8 = e * e;
+			const float t9 = t8 * t8;
+			const float t10 = 0x1.99999ap-3f /* 1/5 */ * t9;
+			const float t11 = t7 + t10;
+			const float t12 = b * b;
+			const float t13 = t11 * t12;
+			const float t14 = 0x1.555556p-2f /* 1/3 */ * t3;
+			const float t15 = 0x1.333334p0f /* 6/5 */ * t5;
+			const float t16 = t14 + t15;
+			const float t17 = 0x1.24924ap-3f /* 1/7 */ * t9;
+			const float t18 = t16 + t17;
+			const float t19 = f * f;
+			const float t20 = t18 * t19;
+			const float t21 = t13 + t20;
+			const float t22 = 0x1.555556p1f /* 8/3 */ * t2;
+			const float t23 = 0x1.99999ap0f /* 8/5 */ * t8;
+			const float t24 = t22 + t23;
+			const float t25 = b * f;
+			const float t26 = t4 * t25;
+			const float t27 = t24 * t26;
+			const float t28 = t21 + t27;
+			const float t29 = s * t28;
+			acc0 = acc0 + t29;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -876,52 +876,52 @@ void ew_ring_x3y3f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = 0x1.aaaaaap0f /* 5/3 */ * t3;
-			const float t5 = f * f;
-			const float t6 = 0x1.aaaaaap0f /* 5/3 */ * t5;
-			const float t7 = t4 + t6;
-			const float t8 = a * a;
-			const float t9 = a * t8;
-			const float t10 = b * t9;
-			const float t11 = t7 * t10;
-			const float t12 = 5.0f * t3;
-			const float t13 = t5 + t12;
-			const float t14 = a * e;
-			const float t15 = a * t14;
-			const float t16 = f * t15;
-			const float t17 = t13 * t16;
-			const float t18 = t11 + t17;
-			const float t19 = 3.0f * t5;
-			const float t20 = t4 + t19;
-			const float t21 = e * t14;
-			const float t22 = b * t21;
-			const float t23 = t20 * t22;
-			const float t24 = t18 + t23;
-			const float t25 = 0x1.e79e7ap-3f /* 5/21 */ * t5;
-			const float t26 = t3 + t25;
-			const float t27 = e * e;
-			const float t28 = e * t27;
-			const float t29 = f * t28;
-			const float t30 = t26 * t29;
-			const float t31 = t24 + t30;
-			const float t32 = t2 * t31;
-			acc0 = t32 + acc0;
+			const float t2 = b * b;
+			const float t3 = 0x1.aaaaaap0f /* 5/3 */ * t2;
+			const float t4 = f * f;
+			const float t5 = 0x1.aaaaaap0f /* 5/3 */ * t4;
+			const float t6 = t3 + t5;
+			const float t7 = a * a;
+			const float t8 = a * t7;
+			const float t9 = b * t8;
+			const float t10 = t6 * t9;
+			const float t11 = 5.0f * t2;
+			const float t12 = t4 + t11;
+			const float t13 = a * e;
+			const float t14 = a * t13;
+			const float t15 = f * t14;
+			const float t16 = t12 * t15;
+			const float t17 = t10 + t16;
+			const float t18 = 3.0f * t4;
+			const float t19 = t3 + t18;
+			const float t20 = e * t13;
+			const float t21 = b * t20;
+			const float t22 = t19 * t21;
+			const float t23 = t17 + t22;
+			const float t24 = 0x1.e79e7ap-3f /* 5/21 */ * t4;
+			const float t25 = t2 + t24;
+			const float t26 = e * e;
+			const float t27 = e * t26;
+			const float t28 = f * t27;
+			const float t29 = t25 * t28;
+			const float t30 = t23 + t29;
+			const float t31 = s * t30;
+			acc0 = acc0 + t31;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -932,50 +932,50 @@ void ew_ring_x2y4f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = t3 * t3;
-			const float t5 = b * f;
-			const float t6 = t5 * t5;
-			const float t7 = 2.0f * t6;
-			const float t8 = t4 + t7;
-			const float t9 = f * f;
-			const float t10 = t9 * t9;
-			const float t11 = 0x1.99999ap-3f /* 1/5 */ * t10;
-			const float t12 = t8 + t11;
-			const float t13 = a * a;
-			const float t14 = t12 * t13;
-			const float t15 = 0x1.555556p1f /* 8/3 */ * t3;
-			const float t16 = 0x1.99999ap0f /* 8/5 */ * t9;
-			const float t17 = t15 + t16;
-			const float t18 = a * e;
-			const float t19 = t5 * t18;
-			const float t20 = t17 * t19;
-			const float t21 = t14 + t20;
-			const float t22 = 0x1.555556p-2f /* 1/3 */ * t4;
-			const float t23 = 0x1.333334p0f /* 6/5 */ * t6;
-			const float t24 = t22 + t23;
-			const float t25 = 0x1.24924ap-3f /* 1/7 */ * t10;
-			const float t26 = t24 + t25;
-			const float t27 = e * e;
-			const float t28 = t26 * t27;
-			const float t29 = t21 + t28;
-			const float t30 = t2 * t29;
-			acc0 = t30 + acc0;
+			const float t2 = b * b;
+			const float t3 = t2 * t2;
+			const float t4 = b * f;
+			const float t5 = t4 * t4;
+			const float t6 = 2.0f * t5;
+			const float t7 = t3 + t6;
+			const float t8 = f * f;
+			const float t9 = t8 * t8;
+			const float t10 = 0x1.99999ap-3f /* 1/5 */ * t9;
+			const float t11 = t7 + t10;
+			const float t12 = a * a;
+			const float t13 = t11 * t12;
+			const float t14 = 0x1.555556p1f /* 8/3 */ * t2;
+			const float t15 = 0x1.99999ap0f /* 8/5 */ * t8;
+			const float t16 = t14 + t15;
+			const float t17 = a * e;
+			const float t18 = t4 * t17;
+			const float t19 = t16 * t18;
+			const float t20 = t13 + t19;
+			const float t21 = 0x1.555556p-2f /* 1/3 */ * t3;
+			const float t22 = 0x1.333334p0f /* 6/5 */ * t5;
+			const float t23 = t21 + t22;
+			const float t24 = 0x1.24924ap-3f /* 1/7 */ * t9;
+			const float t25 = t23 + t24;
+			const float t26 = e * e;
+			const float t27 = t25 * t26;
+			const float t28 = t20 + t27;
+			const float t29 = s * t28;
+			acc0 = acc0 + t29;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -986,42 +986,42 @@ void ew_ring_x1y5f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = t3 * t3;
-			const float t5 = b * f;
-			const float t6 = t5 * t5;
-			const float t7 = 0x1.aaaaaap1f /* 10/3 */ * t6;
-			const float t8 = t4 + t7;
-			const float t9 = f * f;
-			const float t10 = t9 * t9;
-			const float t11 = t8 + t10;
-			const float t12 = a * b;
-			const float t13 = t11 * t12;
-			const float t14 = 0x1.aaaaaap0f /* 5/3 */ * t4;
-			const float t15 = 2.0f * t6;
-			const float t16 = t14 + t15;
-			const float t17 = 0x1.24924ap-3f /* 1/7 */ * t10;
-			const float t18 = t16 + t17;
-			const float t19 = e * f;
-			const float t20 = t18 * t19;
-			const float t21 = t13 + t20;
-			const float t22 = t2 * t21;
-			acc0 = t22 + acc0;
+			const float t2 = b * b;
+			const float t3 = t2 * t2;
+			const float t4 = b * f;
+			const float t5 = t4 * t4;
+			const float t6 = 0x1.aaaaaap1f /* 10/3 */ * t5;
+			const float t7 = t3 + t6;
+			const float t8 = f * f;
+			const float t9 = t8 * t8;
+			const float t10 = t7 + t9;
+			const float t11 = a * b;
+			const float t12 = t10 * t11;
+			const float t13 = 0x1.aaaaaap0f /* 5/3 */ * t3;
+			const float t14 = 2.0f * t5;
+			const float t15 = t13 + t14;
+			const float t16 = 0x1.24924ap-3f /* 1/7 */ * t9;
+			const float t17 = t15 + t16;
+			const float t18 = e * f;
+			const float t19 = t17 * t18;
+			const float t20 = t12 + t19;
+			const float t21 = s * t20;
+			acc0 = acc0 + t21;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1032,35 +1032,35 @@ void ew_ring_x0y6f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = y0 + y1;
-			const float t4 = y0 * t3;
-			const float t5 = y1 * y1;
-			const float t6 = t4 + t5;
-			const float t7 = y0 * t6;
-			const float t8 = y1 * t5;
-			const float t9 = t7 + t8;
-			const float t10 = y0 * t9;
-			const float t11 = y1 * t8;
-			const float t12 = t10 + t11;
-			const float t13 = y0 * t12;
-			const float t14 = y1 * t11;
-			const float t15 = t13 + t14;
-			const float t16 = y0 * t15;
-			const float t17 = y1 * t14;
-			const float t18 = t16 + t17;
-			const float t19 = t2 * t18;
-			acc0 = t19 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = y0 + y1;
+			const float t3 = t2 * y0;
+			const float t4 = y1 * y1;
+			const float t5 = t3 + t4;
+			const float t6 = t5 * y0;
+			const float t7 = t4 * y1;
+			const float t8 = t6 + t7;
+			const float t9 = t8 * y0;
+			const float t10 = t7 * y1;
+			const float t11 = t9 + t10;
+			const float t12 = t11 * y0;
+			const float t13 = t10 * y1;
+			const float t14 = t12 + t13;
+			const float t15 = t14 * y0;
+			const float t16 = t13 * y1;
+			const float t17 = t15 + t16;
+			const float t18 = s * t17;
+			acc0 = acc0 + t18;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1071,38 +1071,38 @@ void ew_ring_x7y0f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = x0 + x1;
-			const float t4 = x0 * t3;
-			const float t5 = x1 * x1;
-			const float t6 = t4 + t5;
-			const float t7 = x0 * t6;
-			const float t8 = x1 * t5;
-			const float t9 = t7 + t8;
-			const float t10 = x0 * t9;
-			const float t11 = x1 * t8;
-			const float t12 = t10 + t11;
-			const float t13 = x0 * t12;
-			const float t14 = x1 * t11;
-			const float t15 = t13 + t14;
-			const float t16 = x0 * t15;
-			const float t17 = x1 * t14;
-			const float t18 = t16 + t17;
-			const float t19 = x0 * t18;
-			const float t20 = x1 * t17;
-			const float t21 = t19 + t20;
-			const float t22 = t2 * t21;
-			acc0 = t22 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = x0 + x1;
+			const float t3 = t2 * x0;
+			const float t4 = x1 * x1;
+			const float t5 = t3 + t4;
+			const float t6 = t5 * x0;
+			const float t7 = t4 * x1;
+			const float t8 = t6 + t7;
+			const float t9 = t8 * x0;
+			const float t10 = t7 * x1;
+			const float t11 = t9 + t10;
+			const float t12 = t11 * x0;
+			const float t13 = t10 * x1;
+			const float t14 = t12 + t13;
+			const float t15 = t14 * x0;
+			const float t16 = t13 * x1;
+			const float t17 = t15 + t16;
+			const float t18 = t17 * x0;
+			const float t19 = t16 * x1;
+			const float t20 = t18 + t19;
+			const float t21 = s * t20;
+			acc0 = acc0 + t21;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1113,7 +1113,7 @@ void ew_ring_x6y1f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
@@ -1151,12 +1151,12 @@ void ew_ring_x6y1f_portable(const float *x, const float *y, float cx, size_t cou
 			const float t25 = t23 * t24;
 			const float t26 = t16 + t25;
 			const float t27 = x0 * y1;
-			const float t28 = y0 * x1;
-			const float t29 = t27 - t28;
-			const float t30 = t29 * t26;
-			acc0 = t30 + acc0;
+			const float t28 = x1 * y0;
+			const float s = t27 - t28;
+			const float t29 = s * t26;
+			acc0 = acc0 + t29;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1167,53 +1167,53 @@ void ew_ring_x5y2f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = t3 * t3;
-			const float t5 = 0x1.333334p-2f /* 3/10 */ * t4;
-			const float t6 = a * e;
-			const float t7 = t6 * t6;
-			const float t8 = t5 + t7;
-			const float t9 = e * e;
-			const float t10 = t9 * t9;
-			const float t11 = 0x1.333334p-2f /* 3/10 */ * t10;
-			const float t12 = t8 + t11;
-			const float t13 = b * b;
-			const float t14 = a * t13;
-			const float t15 = t12 * t14;
-			const float t16 = 0x1.99999ap-4f /* 1/10 */ * t4;
-			const float t17 = 0x1.333334p-1f /* 3/5 */ * t7;
-			const float t18 = t16 + t17;
-			const float t19 = 0x1.b6db6ep-3f /* 3/14 */ * t10;
-			const float t20 = t18 + t19;
-			const float t21 = f * f;
-			const float t22 = a * t21;
-			const float t23 = t20 * t22;
-			const float t24 = t15 + t23;
-			const float t25 = 0x1.333334p0f /* 6/5 */ * t7;
-			const float t26 = t4 + t25;
-			const float t27 = 0x1.5f15f2p-4f /* 3/35 */ * t10;
-			const float t28 = t26 + t27;
-			const float t29 = b * f;
-			const float t30 = e * t29;
-			const float t31 = t28 * t30;
-			const float t32 = t24 + t31;
-			const float t33 = t2 * t32;
-			acc0 = t33 + acc0;
+			const float t2 = a * a;
+			const float t3 = t2 * t2;
+			const float t4 = 0x1.333334p-2f /* 3/10 */ * t3;
+			const float t5 = a * e;
+			const float t6 = t5 * t5;
+			const float t7 = t4 + t6;
+			const float t8 = e * e;
+			const float t9 = t8 * t8;
+			const float t10 = 0x1.333334p-2f /* 3/10 */ * t9;
+			const float t11 = t7 + t10;
+			const float t12 = b * b;
+			const float t13 = a * t12;
+			const float t14 = t11 * t13;
+			const float t15 = 0x1.99999ap-4f /* 1/10 */ * t3;
+			const float t16 = 0x1.333334p-1f /* 3/5 */ * t6;
+			const float t17 = t15 + t16;
+			const float t18 = 0x1.b6db6ep-3f /* 3/14 */ * t9;
+			const float t19 = t17 + t18;
+			const float t20 = f * f;
+			const float t21 = a * t20;
+			const float t22 = t19 * t21;
+			const float t23 = t14 + t22;
+			const float t24 = 0x1.333334p0f /* 6/5 */ * t6;
+			const float t25 = t3 + t24;
+			const float t26 = 0x1.5f15f2p-4f /* 3/35 */ * t9;
+			const float t27 = t25 + t26;
+			const float t28 = b * f;
+			const float t29 = e * t28;
+			const float t30 = t27 * t29;
+			const float t31 = t23 + t30;
+			const float t32 = s * t31;
+			acc0 = acc0 + t32;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1224,59 +1224,59 @@ void ew_ring_x4y3f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = t3 * t3;
-			const float t5 = a * e;
-			const float t6 = t5 * t5;
-			const float t7 = 2.0f * t6;
-			const float t8 = t4 + t7;
-			const float t9 = e * e;
-			const float t10 = t9 * t9;
-			const float t11 = 0x1.99999ap-3f /* 1/5 */ * t10;
-			const float t12 = t8 + t11;
-			const float t13 = b * b;
-			const float t14 = b * t13;
-			const float t15 = t12 * t14;
-			const float t16 = 0x1.ccccccp1f /* 18/5 */ * t6;
-			const float t17 = t4 + t16;
-			const float t18 = 0x1.b6db6ep-2f /* 3/7 */ * t10;
-			const float t19 = t17 + t18;
-			const float t20 = b * f;
-			const float t21 = f * t20;
-			const float t22 = t19 * t21;
-			const float t23 = t15 + t22;
-			const float t24 = 4.0f * t3;
-			const float t25 = 0x1.333334p1f /* 12/5 */ * t9;
-			const float t26 = t24 + t25;
-			const float t27 = b * t20;
-			const float t28 = t5 * t27;
-			const float t29 = t26 * t28;
-			const float t30 = t23 + t29;
-			const float t31 = 0x1.99999ap-1f /* 4/5 */ * t3;
-			const float t32 = 0x1.24924ap-1f /* 4/7 */ * t9;
-			const float t33 = t31 + t32;
-			const float t34 = f * f;
-			const float t35 = f * t34;
-			const float t36 = t5 * t35;
-			const float t37 = t33 * t36;
-			const float t38 = t30 + t37;
-			const float t39 = t2 * t38;
-			acc0 = t39 + acc0;
+			const float t2 = a * a;
+			const float t3 = t2 * t2;
+			const float t4 = a * e;
+			const float t5 = t4 * t4;
+			const float t6 = 2.0f * t5;
+			const float t7 = t3 + t6;
+			const float t8 = e * e;
+			const float t9 = t8 * t8;
+			const float t10 = 0x1.99999ap-3f /* 1/5 */ * t9;
+			const float t11 = t7 + t10;
+			const float t12 = b * b;
+			const float t13 = b * t12;
+			const float t14 = t11 * t13;
+			const float t15 = 0x1.ccccccp1f /* 18/5 */ * t5;
+			const float t16 = t3 + t15;
+			const float t17 = 0x1.b6db6ep-2f /* 3/7 */ * t9;
+			const float t18 = t16 + t17;
+			const float t19 = b * f;
+			const float t20 = f * t19;
+			const float t21 = t18 * t20;
+			const float t22 = t14 + t21;
+			const float t23 = 4.0f * t2;
+			const float t24 = 0x1.333334p1f /* 12/5 */ * t8;
+			const float t25 = t23 + t24;
+			const float t26 = b * t19;
+			const float t27 = t4 * t26;
+			const float t28 = t25 * t27;
+			const float t29 = t22 + t28;
+			const float t30 = 0x1.99999ap-1f /* 4/5 */ * t2;
+			const float t31 = 0x1.24924ap-1f /* 4/7 */ * t8;
+			const float t32 = t30 + t31;
+			const float t33 = f * f;
+			const float t34 = f * t33;
+			const float t35 = t4 * t34;
+			const float t36 = t32 * t35;
+			const float t37 = t29 + t36;
+			const float t38 = s * t37;
+			acc0 = acc0 + t38;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1287,59 +1287,59 @@ void ew_ring_x3y4f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = t3 * t3;
-			const float t5 = b * f;
-			const float t6 = t5 * t5;
-			const float t7 = 2.0f * t6;
-			const float t8 = t4 + t7;
-			const float t9 = f * f;
-			const float t10 = t9 * t9;
-			const float t11 = 0x1.99999ap-3f /* 1/5 */ * t10;
-			const float t12 = t8 + t11;
-			const float t13 = a * a;
-			const float t14 = a * t13;
-			const float t15 = t12 * t14;
-			const float t16 = 4.0f * t3;
-			const float t17 = 0x1.333334p1f /* 12/5 */ * t9;
-			const float t18 = t16 + t17;
-			const float t19 = a * e;
-			const float t20 = a * t19;
-			const float t21 = t5 * t20;
-			const float t22 = t18 * t21;
-			const float t23 = t15 + t22;
-			const float t24 = 0x1.ccccccp1f /* 18/5 */ * t6;
-			const float t25 = t4 + t24;
-			const float t26 = 0x1.b6db6ep-2f /* 3/7 */ * t10;
-			const float t27 = t25 + t26;
-			const float t28 = e * t19;
-			const float t29 = t27 * t28;
-			const float t30 = t23 + t29;
-			const float t31 = 0x1.99999ap-1f /* 4/5 */ * t3;
-			const float t32 = 0x1.24924ap-1f /* 4/7 */ * t9;
-			const float t33 = t31 + t32;
-			const float t34 = e * e;
-			const float t35 = e * t34;
-			const float t36 = t5 * t35;
-			const float t37 = t33 * t36;
-			const float t38 = t30 + t37;
-			const float t39 = t2 * t38;
-			acc0 = t39 + acc0;
+			const float t2 = b * b;
+			const float t3 = t2 * t2;
+			const float t4 = b * f;
+			const float t5 = t4 * t4;
+			const float t6 = 2.0f * t5;
+			const float t7 = t3 + t6;
+			const float t8 = f * f;
+			const float t9 = t8 * t8;
+			const float t10 = 0x1.99999ap-3f /* 1/5 */ * t9;
+			const float t11 = t7 + t10;
+			const float t12 = a * a;
+			const float t13 = a * t12;
+			const float t14 = t11 * t13;
+			const float t15 = 4.0f * t2;
+			const float t16 = 0x1.333334p1f /* 12/5 */ * t8;
+			const float t17 = t15 + t16;
+			const float t18 = a * e;
+			const float t19 = a * t18;
+			const float t20 = t4 * t19;
+			const float t21 = t17 * t20;
+			const float t22 = t14 + t21;
+			const float t23 = 0x1.ccccccp1f /* 18/5 */ * t5;
+			const float t24 = t3 + t23;
+			const float t25 = 0x1.b6db6ep-2f /* 3/7 */ * t9;
+			const float t26 = t24 + t25;
+			const float t27 = e * t18;
+			const float t28 = t26 * t27;
+			const float t29 = t22 + t28;
+			const float t30 = 0x1.99999ap-1f /* 4/5 */ * t2;
+			const float t31 = 0x1.24924ap-1f /* 4/7 */ * t8;
+			const float t32 = t30 + t31;
+			const float t33 = e * e;
+			const float t34 = e * t33;
+			const float t35 = t4 * t34;
+			const float t36 = t32 * t35;
+			const float t37 = t29 + t36;
+			const float t38 = s * t37;
+			acc0 = acc0 + t38;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1350,53 +1350,53 @@ void ew_ring_x2y5f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = t3 * t3;
-			const float t5 = 0x1.333334p-2f /* 3/10 */ * t4;
-			const float t6 = b * f;
-			const float t7 = t6 * t6;
-			const float t8 = t5 + t7;
-			const float t9 = f * f;
-			const float t10 = t9 * t9;
-			const float t11 = 0x1.333334p-2f /* 3/10 */ * t10;
-			const float t12 = t8 + t11;
-			const float t13 = a * a;
-			const float t14 = b * t13;
-			const float t15 = t12 * t14;
-			const float t16 = 0x1.333334p0f /* 6/5 */ * t7;
-			const float t17 = t4 + t16;
-			const float t18 = 0x1.5f15f2p-4f /* 3/35 */ * t10;
-			const float t19 = t17 + t18;
-			const float t20 = a * e;
-			const float t21 = f * t20;
-			const float t22 = t19 * t21;
-			const float t23 = t15 + t22;
-			const float t24 = 0x1.99999ap-4f /* 1/10 */ * t4;
-			const float t25 = 0x1.333334p-1f /* 3/5 */ * t7;
-			const float t26 = t24 + t25;
-			const float t27 = 0x1.b6db6ep-3f /* 3/14 */ * t10;
-			const float t28 = t26 + t27;
-			const float t29 = e * e;
-			const float t30 = b * t29;
-			const float t31 = t28 * t30;
-			const float t32 = t23 + t31;
-			const float t33 = t2 * t32;
-			acc0 = t33 + acc0;
+			const float t2 = b * b;
+			const float t3 = t2 * t2;
+			const float t4 = 0x1.333334p-2f /* 3/10 */ * t3;
+			const float t5 = b * f;
+			const float t6 = t5 * t5;
+			const float t7 = t4 + t6;
+			const float t8 = f * f;
+			const float t9 = t8 * t8;
+			const float t10 = 0x1.333334p-2f /* 3/10 */ * t9;
+			const float t11 = t7 + t10;
+			const float t12 = a * a;
+			const float t13 = b * t12;
+			const float t14 = t11 * t13;
+			const float t15 = 0x1.333334p0f /* 6/5 */ * t6;
+			const float t16 = t3 + t15;
+			const float t17 = 0x1.5f15f2p-4f /* 3/35 */ * t9;
+			const float t18 = t16 + t17;
+			const float t19 = a * e;
+			const float t20 = f * t19;
+			const float t21 = t18 * t20;
+			const float t22 = t14 + t21;
+			const float t23 = 0x1.99999ap-4f /* 1/10 */ * t3;
+			const float t24 = 0x1.333334p-1f /* 3/5 */ * t6;
+			const float t25 = t23 + t24;
+			const float t26 = 0x1.b6db6ep-3f /* 3/14 */ * t9;
+			const float t27 = t25 + t26;
+			const float t28 = e * e;
+			const float t29 = b * t28;
+			const float t30 = t27 * t29;
+			const float t31 = t22 + t30;
+			const float t32 = s * t31;
+			acc0 = acc0 + t32;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1407,7 +1407,7 @@ void ew_ring_x1y6f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
@@ -1445,12 +1445,12 @@ void ew_ring_x1y6f_portable(const float *x, const float *y, float cx, size_t cou
 			const float t25 = t23 * t24;
 			const float t26 = t16 + t25;
 			const float t27 = x0 * y1;
-			const float t28 = y0 * x1;
-			const float t29 = t27 - t28;
-			const float t30 = t29 * t26;
-			acc0 = t30 + acc0;
+			const float t28 = x1 * y0;
+			const float s = t27 - t28;
+			const float t29 = s * t26;
+			acc0 = acc0 + t29;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1461,38 +1461,38 @@ void ew_ring_x0y7f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = y0 + y1;
-			const float t4 = y0 * t3;
-			const float t5 = y1 * y1;
-			const float t6 = t4 + t5;
-			const float t7 = y0 * t6;
-			const float t8 = y1 * t5;
-			const float t9 = t7 + t8;
-			const float t10 = y0 * t9;
-			const float t11 = y1 * t8;
-			const float t12 = t10 + t11;
-			const float t13 = y0 * t12;
-			const float t14 = y1 * t11;
-			const float t15 = t13 + t14;
-			const float t16 = y0 * t15;
-			const float t17 = y1 * t14;
-			const float t18 = t16 + t17;
-			const float t19 = y0 * t18;
-			const float t20 = y1 * t17;
-			const float t21 = t19 + t20;
-			const float t22 = t2 * t21;
-			acc0 = t22 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = y0 + y1;
+			const float t3 = t2 * y0;
+			const float t4 = y1 * y1;
+			const float t5 = t3 + t4;
+			const float t6 = t5 * y0;
+			const float t7 = t4 * y1;
+			const float t8 = t6 + t7;
+			const float t9 = t8 * y0;
+			const float t10 = t7 * y1;
+			const float t11 = t9 + t10;
+			const float t12 = t11 * y0;
+			const float t13 = t10 * y1;
+			const float t14 = t12 + t13;
+			const float t15 = t14 * y0;
+			const float t16 = t13 * y1;
+			const float t17 = t15 + t16;
+			const float t18 = t17 * y0;
+			const float t19 = t16 * y1;
+			const float t20 = t18 + t19;
+			const float t21 = s * t20;
+			acc0 = acc0 + t21;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1503,41 +1503,41 @@ void ew_ring_x8y0f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = x0 + x1;
-			const float t4 = x0 * t3;
-			const float t5 = x1 * x1;
-			const float t6 = t4 + t5;
-			const float t7 = x0 * t6;
-			const float t8 = x1 * t5;
-			const float t9 = t7 + t8;
-			const float t10 = x0 * t9;
-			const float t11 = x1 * t8;
-			const float t12 = t10 + t11;
-			const float t13 = x0 * t12;
-			const float t14 = x1 * t11;
-			const float t15 = t13 + t14;
-			const float t16 = x0 * t15;
-			const float t17 = x1 * t14;
-			const float t18 = t16 + t17;
-			const float t19 = x0 * t18;
-			const float t20 = x1 * t17;
-			const float t21 = t19 + t20;
-			const float t22 = x0 * t21;
-			const float t23 = x1 * t20;
-			const float t24 = t22 + t23;
-			const float t25 = t2 * t24;
-			acc0 = t25 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = x0 + x1;
+			const float t3 = t2 * x0;
+			const float t4 = x1 * x1;
+			const float t5 = t3 + t4;
+			const float t6 = t5 * x0;
+			const float t7 = t4 * x1;
+			const float t8 = t6 + t7;
+			const float t9 = t8 * x0;
+			const float t10 = t7 * x1;
+			const float t11 = t9 + t10;
+			const float t12 = t11 * x0;
+			const float t13 = t10 * x1;
+			const float t14 = t12 + t13;
+			const float t15 = t14 * x0;
+			const float t16 = t13 * x1;
+			const float t17 = t15 + t16;
+			const float t18 = t17 * x0;
+			const float t19 = t16 * x1;
+			const float t20 = t18 + t19;
+			const float t21 = t20 * x0;
+			const float t22 = t19 * x1;
+			const float t23 = t21 + t22;
+			const float t24 = s * t23;
+			acc0 = acc0 + t24;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1548,49 +1548,49 @@ void ew_ring_x7y1f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = a * t3;
-			const float t5 = t4 * t4;
-			const float t6 = 0x1.24924ap-3f /* 1/7 */ * t5;
-			const float t7 = a * e;
-			const float t8 = t7 * t7;
-			const float t9 = t3 * t8;
-			const float t10 = t6 + t9;
-			const float t11 = e * e;
-			const float t12 = t8 * t11;
-			const float t13 = t10 + t12;
-			const float t14 = e * t11;
-			const float t15 = t14 * t14;
-			const float t16 = 0x1.24924ap-3f /* 1/7 */ * t15;
-			const float t17 = t13 + t16;
-			const float t18 = a * b;
-			const float t19 = t17 * t18;
-			const float t20 = 0x1.555556p-2f /* 1/3 */ * t5;
-			const float t21 = t9 + t20;
-			const float t22 = 0x1.b6db6ep-2f /* 3/7 */ * t12;
-			const float t23 = t21 + t22;
-			const float t24 = 0x1.041042p-6f /* 1/63 */ * t15;
-			const float t25 = t23 + t24;
-			const float t26 = e * f;
-			const float t27 = t25 * t26;
-			const float t28 = t19 + t27;
-			const float t29 = t2 * t28;
-			acc0 = t29 + acc0;
+			const float t2 = a * a;
+			const float t3 = a * t2;
+			const float t4 = t3 * t3;
+			const float t5 = 0x1.24924ap-3f /* 1/7 */ * t4;
+			const float t6 = a * e;
+			const float t7 = t6 * t6;
+			const float t8 = t2 * t7;
+			const float t9 = t5 + t8;
+			const float t10 = e * e;
+			const float t11 = t7 * t10;
+			const float t12 = t9 + t11;
+			const float t13 = e * t10;
+			const float t14 = t13 * t13;
+			const float t15 = 0x1.24924ap-3f /* 1/7 */ * t14;
+			const float t16 = t12 + t15;
+			const float t17 = a * b;
+			const float t18 = t16 * t17;
+			const float t19 = 0x1.555556p-2f /* 1/3 */ * t4;
+			const float t20 = t8 + t19;
+			const float t21 = 0x1.b6db6ep-2f /* 3/7 */ * t11;
+			const float t22 = t20 + t21;
+			const float t23 = 0x1.041042p-6f /* 1/63 */ * t14;
+			const float t24 = t22 + t23;
+			const float t25 = e * f;
+			const float t26 = t24 * t25;
+			const float t27 = t18 + t26;
+			const float t28 = s * t27;
+			acc0 = acc0 + t28;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1601,61 +1601,61 @@ void ew_ring_x6y2f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = a * t3;
-			const float t5 = t4 * t4;
-			const float t6 = 0x1.555556p-2f /* 1/3 */ * t5;
-			const float t7 = a * e;
-			const float t8 = t7 * t7;
-			const float t9 = t3 * t8;
-			const float t10 = 0x1.aaaaaap0f /* 5/3 */ * t9;
-			const float t11 = t6 + t10;
-			const float t12 = e * e;
-			const float t13 = t8 * t12;
-			const float t14 = t11 + t13;
-			const float t15 = e * t12;
-			const float t16 = t15 * t15;
-			const float t17 = 0x1.861862p-5f /* 1/21 */ * t16;
-			const float t18 = t14 + t17;
-			const float t19 = b * b;
-			const float t20 = t18 * t19;
-			const float t21 = 0x1.c71c72p-4f /* 1/9 */ * t5;
-			const float t22 = t9 + t21;
-			const float t23 = 0x1.6db6dcp-1f /* 5/7 */ * t13;
-			const float t24 = t22 + t23;
-			const float t25 = 0x1.2f684cp-5f /* 1/27 */ * t16;
-			const float t26 = t24 + t25;
-			const float t27 = f * f;
-			const float t28 = t26 * t27;
-			const float t29 = t20 + t28;
-			const float t30 = t3 * t3;
-			const float t31 = 0x1.555556p0f /* 4/3 */ * t30;
-			const float t32 = 0x1.555556p1f /* 8/3 */ * t8;
-			const float t33 = t31 + t32;
-			const float t34 = t12 * t12;
-			const float t35 = 0x1.24924ap-1f /* 4/7 */ * t34;
-			const float t36 = t33 + t35;
-			const float t37 = b * f;
-			const float t38 = t7 * t37;
-			const float t39 = t36 * t38;
-			const float t40 = t29 + t39;
-			const float t41 = t2 * t40;
-			acc0 = t41 + acc0;
+			const float t2 = a * a;
+			const float t3 = a * t2;
+			const float t4 = t3 * t3;
+			const float t5 = 0x1.555556p-2f /* 1/3 */ * t4;
+			const float t6 = a * e;
+			const float t7 = t6 * t6;
+			const float t8 = t2 * t7;
+			const float t9 = 0x1.aaaaaap0f /* 5/3 */ * t8;
+			const float t10 = t5 + t9;
+			const float t11 = e * e;
+			const float t12 = t7 * t11;
+			const float t13 = t10 + t12;
+			const float t14 = e * t11;
+			const float t15 = t14 * t14;
+			const float t16 = 0x1.861862p-5f /* 1/21 */ * t15;
+			const float t17 = t13 + t16;
+			const float t18 = b * b;
+			const float t19 = t17 * t18;
+			const float t20 = 0x1.c71c72p-4f /* 1/9 */ * t4;
+			const float t21 = t8 + t20;
+			const float t22 = 0x1.6db6dcp-1f /* 5/7 */ * t12;
+			const float t23 = t21 + t22;
+			const float t24 = 0x1.2f684cp-5f /* 1/27 */ * t15;
+			const float t25 = t23 + t24;
+			const float t26 = f * f;
+			const float t27 = t25 * t26;
+			const float t28 = t19 + t27;
+			const float t29 = t2 * t2;
+			const float t30 = 0x1.555556p0f /* 4/3 */ * t29;
+			const float t31 = 0x1.555556p1f /* 8/3 */ * t7;
+			const float t32 = t30 + t31;
+			const float t33 = t11 * t11;
+			const float t34 = 0x1.24924ap-1f /* 4/7 */ * t33;
+			const float t35 = t32 + t34;
+			const float t36 = b * f;
+			const float t37 = t6 * t36;
+			const float t38 = t35 * t37;
+			const float t39 = t28 + t38;
+			const float t40 = s * t39;
+			acc0 = acc0 + t40;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1666,62 +1666,62 @@ void ew_ring_x5y3f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = a * a;
-			const float t4 = t3 * t3;
-			const float t5 = a * e;
-			const float t6 = t5 * t5;
-			const float t7 = 0x1.aaaaaap1f /* 10/3 */ * t6;
-			const float t8 = t4 + t7;
-			const float t9 = e * e;
-			const float t10 = t9 * t9;
-			const float t11 = t8 + t10;
-			const float t12 = b * b;
-			const float t13 = b * t12;
-			const float t14 = a * t13;
-			const float t15 = t11 * t14;
-			const float t16 = 6.0f * t6;
-			const float t17 = t4 + t16;
-			const float t18 = 0x1.124924p1f /* 15/7 */ * t10;
-			const float t19 = t17 + t18;
-			const float t20 = b * f;
-			const float t21 = f * t20;
-			const float t22 = a * t21;
-			const float t23 = t19 * t22;
-			const float t24 = t15 + t23;
-			const float t25 = 5.0f * t4;
-			const float t26 = t16 + t25;
-			const float t27 = 0x1.b6db6ep-2f /* 3/7 */ * t10;
-			const float t28 = t26 + t27;
-			const float t29 = b * t20;
-			const float t30 = e * t29;
-			const float t31 = t28 * t30;
-			const float t32 = t24 + t31;
-			const float t33 = 0x1.6db6dcp0f /* 10/7 */ * t6;
-			const float t34 = t4 + t33;
-			const float t35 = 0x1.c71c72p-4f /* 1/9 */ * t10;
-			const float t36 = t34 + t35;
-			const float t37 = f * f;
-			const float t38 = f * t37;
-			const float t39 = e * t38;
-			const float t40 = t36 * t39;
-			const float t41 = t32 + t40;
-			const float t42 = t2 * t41;
-			acc0 = t42 + acc0;
+			const float t2 = a * a;
+			const float t3 = t2 * t2;
+			const float t4 = a * e;
+			const float t5 = t4 * t4;
+			const float t6 = 0x1.aaaaaap1f /* 10/3 */ * t5;
+			const float t7 = t3 + t6;
+			const float t8 = e * e;
+			const float t9 = t8 * t8;
+			const float t10 = t7 + t9;
+			const float t11 = b * b;
+			const float t12 = b * t11;
+			const float t13 = a * t12;
+			const float t14 = t10 * t13;
+			const float t15 = 6.0f * t5;
+			const float t16 = t3 + t15;
+			const float t17 = 0x1.124924p1f /* 15/7 */ * t9;
+			const float t18 = t16 + t17;
+			const float t19 = b * f;
+			const float t20 = f * t19;
+			const float t21 = a * t20;
+			const float t22 = t18 * t21;
+			const float t23 = t14 + t22;
+			const float t24 = 5.0f * t3;
+			const float t25 = t15 + t24;
+			const float t26 = 0x1.b6db6ep-2f /* 3/7 */ * t9;
+			const float t27 = t25 + t26;
+			const float t28 = b * t19;
+			const float t29 = e * t28;
+			const float t30 = t27 * t29;
+			const float t31 = t23 + t30;
+			const float t32 = 0x1.6db6dcp0f /* 10/7 */ * t5;
+			const float t33 = t3 + t32;
+			const float t34 = 0x1.c71c72p-4f /* 1/9 */ * t9;
+			const float t35 = t33 + t34;
+			const float t36 = f * f;
+			const float t37 = f * t36;
+			const float t38 = e * t37;
+			const float t39 = t35 * t38;
+			const float t40 = t31 + t39;
+			const float t41 = s * t40;
+			acc0 = acc0 + t41;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1732,67 +1732,67 @@ void ew_ring_x4y4f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = t3 * t3;
-			const float t5 = 0x1.000000p-1f /* 1/2 */ * t4;
-			const float t6 = b * f;
-			const float t7 = t6 * t6;
-			const float t8 = t5 + t7;
-			const float t9 = f * f;
-			const float t10 = t9 * t9;
-			const float t11 = 0x1.99999ap-4f /* 1/10 */ * t10;
-			const float t12 = t8 + t11;
-			const float t13 = a * a;
-			const float t14 = t13 * t13;
-			const float t15 = t12 * t14;
-			const float t16 = 0x1.555556p1f /* 8/3 */ * t3;
-			const float t17 = 0x1.99999ap0f /* 8/5 */ * t9;
-			const float t18 = t16 + t17;
-			const float t19 = a * e;
-			const float t20 = t13 * t19;
-			const float t21 = t6 * t20;
-			const float t22 = t18 * t21;
-			const float t23 = t15 + t22;
-			const float t24 = 0x1.ccccccp1f /* 18/5 */ * t7;
-			const float t25 = t4 + t24;
-			const float t26 = 0x1.b6db6ep-2f /* 3/7 */ * t10;
-			const float t27 = t25 + t26;
-			const float t28 = t19 * t19;
-			const float t29 = t27 * t28;
-			const float t30 = t23 + t29;
-			const float t31 = 0x1.99999ap0f /* 8/5 */ * t3;
-			const float t32 = 0x1.24924ap0f /* 8/7 */ * t9;
-			const float t33 = t31 + t32;
-			const float t34 = e * e;
-			const float t35 = t19 * t34;
-			const float t36 = t6 * t35;
-			const float t37 = t33 * t36;
-			const float t38 = t30 + t37;
-			const float t39 = 0x1.99999ap-4f /* 1/10 */ * t4;
-			const float t40 = 0x1.b6db6ep-2f /* 3/7 */ * t7;
-			const float t41 = t39 + t40;
-			const float t42 = 0x1.c71c72p-5f /* 1/18 */ * t10;
-			const float t43 = t41 + t42;
-			const float t44 = t34 * t34;
-			const float t45 = t43 * t44;
-			const float t46 = t38 + t45;
-			const float t47 = t2 * t46;
-			acc0 = t47 + acc0;
+			const float t2 = b * b;
+			const float t3 = t2 * t2;
+			const float t4 = 0.5f * t3;
+			const float t5 = b * f;
+			const float t6 = t5 * t5;
+			const float t7 = t4 + t6;
+			const float t8 = f * f;
+			const float t9 = t8 * t8;
+			const float t10 = 0x1.99999ap-4f /* 1/10 */ * t9;
+			const float t11 = t7 + t10;
+			const float t12 = a * a;
+			const float t13 = t12 * t12;
+			const float t14 = t11 * t13;
+			const float t15 = 0x1.555556p1f /* 8/3 */ * t2;
+			const float t16 = 0x1.99999ap0f /* 8/5 */ * t8;
+			const float t17 = t15 + t16;
+			const float t18 = a * e;
+			const float t19 = t12 * t18;
+			const float t20 = t5 * t19;
+			const float t21 = t17 * t20;
+			const float t22 = t14 + t21;
+			const float t23 = 0x1.ccccccp1f /* 18/5 */ * t6;
+			const float t24 = t3 + t23;
+			const float t25 = 0x1.b6db6ep-2f /* 3/7 */ * t9;
+			const float t26 = t24 + t25;
+			const float t27 = t18 * t18;
+			const float t28 = t26 * t27;
+			const float t29 = t22 + t28;
+			const float t30 = 0x1.99999ap0f /* 8/5 */ * t2;
+			const float t31 = 0x1.24924ap0f /* 8/7 */ * t8;
+			const float t32 = t30 + t31;
+			const float t33 = e * e;
+			const float t34 = t18 * t33;
+			const float t35 = t5 * t34;
+			const float t36 = t32 * t35;
+			const float t37 = t29 + t36;
+			const float t38 = 0x1.99999ap-4f /* 1/10 */ * t3;
+			const float t39 = 0x1.b6db6ep-2f /* 3/7 */ * t6;
+			const float t40 = t38 + t39;
+			const float t41 = 0x1.c71c72p-5f /* 1/18 */ * t9;
+			const float t42 = t40 + t41;
+			const float t43 = t33 * t33;
+			const float t44 = t42 * t43;
+			const float t45 = t37 + t44;
+			const float t46 = s * t45;
+			acc0 = acc0 + t46;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1803,62 +1803,62 @@ void ew_ring_x3y5f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = t3 * t3;
-			const float t5 = b * f;
-			const float t6 = t5 * t5;
-			const float t7 = 0x1.aaaaaap1f /* 10/3 */ * t6;
-			const float t8 = t4 + t7;
-			const float t9 = f * f;
-			const float t10 = t9 * t9;
-			const float t11 = t8 + t10;
-			const float t12 = a * a;
-			const float t13 = a * t12;
-			const float t14 = b * t13;
-			const float t15 = t11 * t14;
-			const float t16 = 5.0f * t4;
-			const float t17 = 6.0f * t6;
-			const float t18 = t16 + t17;
-			const float t19 = 0x1.b6db6ep-2f /* 3/7 */ * t10;
-			const float t20 = t18 + t19;
-			const float t21 = a * e;
-			const float t22 = a * t21;
-			const float t23 = f * t22;
-			const float t24 = t20 * t23;
-			const float t25 = t15 + t24;
-			const float t26 = t4 + t17;
-			const float t27 = 0x1.124924p1f /* 15/7 */ * t10;
-			const float t28 = t26 + t27;
-			const float t29 = e * t21;
-			const float t30 = b * t29;
-			const float t31 = t28 * t30;
-			const float t32 = t25 + t31;
-			const float t33 = 0x1.6db6dcp0f /* 10/7 */ * t6;
-			const float t34 = t4 + t33;
-			const float t35 = 0x1.c71c72p-4f /* 1/9 */ * t10;
-			const float t36 = t34 + t35;
-			const float t37 = e * e;
-			const float t38 = e * t37;
-			const float t39 = f * t38;
-			const float t40 = t36 * t39;
-			const float t41 = t32 + t40;
-			const float t42 = t2 * t41;
-			acc0 = t42 + acc0;
+			const float t2 = b * b;
+			const float t3 = t2 * t2;
+			const float t4 = b * f;
+			const float t5 = t4 * t4;
+			const float t6 = 0x1.aaaaaap1f /* 10/3 */ * t5;
+			const float t7 = t3 + t6;
+			const float t8 = f * f;
+			const float t9 = t8 * t8;
+			const float t10 = t7 + t9;
+			const float t11 = a * a;
+			const float t12 = a * t11;
+			const float t13 = b * t12;
+			const float t14 = t10 * t13;
+			const float t15 = 5.0f * t3;
+			const float t16 = 6.0f * t5;
+			const float t17 = t15 + t16;
+			const float t18 = 0x1.b6db6ep-2f /* 3/7 */ * t9;
+			const float t19 = t17 + t18;
+			const float t20 = a * e;
+			const float t21 = a * t20;
+			const float t22 = f * t21;
+			const float t23 = t19 * t22;
+			const float t24 = t14 + t23;
+			const float t25 = t3 + t16;
+			const float t26 = 0x1.124924p1f /* 15/7 */ * t9;
+			const float t27 = t25 + t26;
+			const float t28 = e * t20;
+			const float t29 = b * t28;
+			const float t30 = t27 * t29;
+			const float t31 = t24 + t30;
+			const float t32 = 0x1.6db6dcp0f /* 10/7 */ * t5;
+			const float t33 = t3 + t32;
+			const float t34 = 0x1.c71c72p-4f /* 1/9 */ * t9;
+			const float t35 = t33 + t34;
+			const float t36 = e * e;
+			const float t37 = e * t36;
+			const float t38 = f * t37;
+			const float t39 = t35 * t38;
+			const float t40 = t31 + t39;
+			const float t41 = s * t40;
+			acc0 = acc0 + t41;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1869,61 +1869,61 @@ void ew_ring_x2y6f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = b * t3;
-			const float t5 = t4 * t4;
-			const float t6 = 0x1.555556p-2f /* 1/3 */ * t5;
-			const float t7 = b * f;
-			const float t8 = t7 * t7;
-			const float t9 = t3 * t8;
-			const float t10 = 0x1.aaaaaap0f /* 5/3 */ * t9;
-			const float t11 = t6 + t10;
-			const float t12 = f * f;
-			const float t13 = t8 * t12;
-			const float t14 = t11 + t13;
-			const float t15 = f * t12;
-			const float t16 = t15 * t15;
-			const float t17 = 0x1.861862p-5f /* 1/21 */ * t16;
-			const float t18 = t14 + t17;
-			const float t19 = a * a;
-			const float t20 = t18 * t19;
-			const float t21 = t3 * t3;
-			const float t22 = 0x1.555556p0f /* 4/3 */ * t21;
-			const float t23 = 0x1.555556p1f /* 8/3 */ * t8;
-			const float t24 = t22 + t23;
-			const float t25 = t12 * t12;
-			const float t26 = 0x1.24924ap-1f /* 4/7 */ * t25;
-			const float t27 = t24 + t26;
-			const float t28 = a * e;
-			const float t29 = t7 * t28;
-			const float t30 = t27 * t29;
-			const float t31 = t20 + t30;
-			const float t32 = 0x1.c71c72p-4f /* 1/9 */ * t5;
-			const float t33 = t9 + t32;
-			const float t34 = 0x1.6db6dcp-1f /* 5/7 */ * t13;
-			const float t35 = t33 + t34;
-			const float t36 = 0x1.2f684cp-5f /* 1/27 */ * t16;
-			const float t37 = t35 + t36;
-			const float t38 = e * e;
-			const float t39 = t37 * t38;
-			const float t40 = t31 + t39;
-			const float t41 = t2 * t40;
-			acc0 = t41 + acc0;
+			const float t2 = b * b;
+			const float t3 = b * t2;
+			const float t4 = t3 * t3;
+			const float t5 = 0x1.555556p-2f /* 1/3 */ * t4;
+			const float t6 = b * f;
+			const float t7 = t6 * t6;
+			const float t8 = t2 * t7;
+			const float t9 = 0x1.aaaaaap0f /* 5/3 */ * t8;
+			const float t10 = t5 + t9;
+			const float t11 = f * f;
+			const float t12 = t7 * t11;
+			const float t13 = t10 + t12;
+			const float t14 = f * t11;
+			const float t15 = t14 * t14;
+			const float t16 = 0x1.861862p-5f /* 1/21 */ * t15;
+			const float t17 = t13 + t16;
+			const float t18 = a * a;
+			const float t19 = t17 * t18;
+			const float t20 = t2 * t2;
+			const float t21 = 0x1.555556p0f /* 4/3 */ * t20;
+			const float t22 = 0x1.555556p1f /* 8/3 */ * t7;
+			const float t23 = t21 + t22;
+			const float t24 = t11 * t11;
+			const float t25 = 0x1.24924ap-1f /* 4/7 */ * t24;
+			const float t26 = t23 + t25;
+			const float t27 = a * e;
+			const float t28 = t6 * t27;
+			const float t29 = t26 * t28;
+			const float t30 = t19 + t29;
+			const float t31 = 0x1.c71c72p-4f /* 1/9 */ * t4;
+			const float t32 = t8 + t31;
+			const float t33 = 0x1.6db6dcp-1f /* 5/7 */ * t12;
+			const float t34 = t32 + t33;
+			const float t35 = 0x1.2f684cp-5f /* 1/27 */ * t15;
+			const float t36 = t34 + t35;
+			const float t37 = e * e;
+			const float t38 = t36 * t37;
+			const float t39 = t30 + t38;
+			const float t40 = s * t39;
+			acc0 = acc0 + t40;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1934,49 +1934,49 @@ void ew_ring_x1y7f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
 			const float a = x0 + x1;
 			const float e = x1 - x0;
 			const float b = y0 + y1;
 			const float f = y1 - y0;
-			const float t3 = b * b;
-			const float t4 = b * t3;
-			const float t5 = t4 * t4;
-			const float t6 = 0x1.24924ap-3f /* 1/7 */ * t5;
-			const float t7 = b * f;
-			const float t8 = t7 * t7;
-			const float t9 = t3 * t8;
-			const float t10 = t6 + t9;
-			const float t11 = f * f;
-			const float t12 = t8 * t11;
-			const float t13 = t10 + t12;
-			const float t14 = f * t11;
-			const float t15 = t14 * t14;
-			const float t16 = 0x1.24924ap-3f /* 1/7 */ * t15;
-			const float t17 = t13 + t16;
-			const float t18 = a * b;
-			const float t19 = t17 * t18;
-			const float t20 = 0x1.555556p-2f /* 1/3 */ * t5;
-			const float t21 = t9 + t20;
-			const float t22 = 0x1.b6db6ep-2f /* 3/7 */ * t12;
-			const float t23 = t21 + t22;
-			const float t24 = 0x1.041042p-6f /* 1/63 */ * t15;
-			const float t25 = t23 + t24;
-			const float t26 = e * f;
-			const float t27 = t25 * t26;
-			const float t28 = t19 + t27;
-			const float t29 = t2 * t28;
-			acc0 = t29 + acc0;
+			const float t2 = b * b;
+			const float t3 = b * t2;
+			const float t4 = t3 * t3;
+			const float t5 = 0x1.24924ap-3f /* 1/7 */ * t4;
+			const float t6 = b * f;
+			const float t7 = t6 * t6;
+			const float t8 = t2 * t7;
+			const float t9 = t5 + t8;
+			const float t10 = f * f;
+			const float t11 = t7 * t10;
+			const float t12 = t9 + t11;
+			const float t13 = f * t10;
+			const float t14 = t13 * t13;
+			const float t15 = 0x1.24924ap-3f /* 1/7 */ * t14;
+			const float t16 = t12 + t15;
+			const float t17 = a * b;
+			const float t18 = t16 * t17;
+			const float t19 = 0x1.555556p-2f /* 1/3 */ * t4;
+			const float t20 = t8 + t19;
+			const float t21 = 0x1.b6db6ep-2f /* 3/7 */ * t11;
+			const float t22 = t20 + t21;
+			const float t23 = 0x1.041042p-6f /* 1/63 */ * t14;
+			const float t24 = t22 + t23;
+			const float t25 = e * f;
+			const float t26 = t24 * t25;
+			const float t27 = t18 + t26;
+			const float t28 = s * t27;
+			acc0 = acc0 + t28;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }
 
@@ -1987,40 +1987,40 @@ void ew_ring_x0y8f_portable(const float *x, const float *y, float cx, size_t cou
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
-		float acc0 = sum[0 + lane];
+		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
 			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float t0 = x0 * y1;
-			const float t1 = y0 * x1;
-			const float t2 = t0 - t1;
-			const float t3 = y0 + y1;
-			const float t4 = y0 * t3;
-			const float t5 = y1 * y1;
-			const float t6 = t4 + t5;
-			const float t7 = y0 * t6;
-			const float t8 = y1 * t5;
-			const float t9 = t7 + t8;
-			const float t10 = y0 * t9;
-			const float t11 = y1 * t8;
-			const float t12 = t10 + t11;
-			const float t13 = y0 * t12;
-			const float t14 = y1 * t11;
-			const float t15 = t13 + t14;
-			const float t16 = y0 * t15;
-			const float t17 = y1 * t14;
-			const float t18 = t16 + t17;
-			const float t19 = y0 * t18;
-			const float t20 = y1 * t17;
-			const float t21 = t19 + t20;
-			const float t22 = y0 * t21;
-			const float t23 = y1 * t20;
-			const float t24 = t22 + t23;
-			const float t25 = t2 * t24;
-			acc0 = t25 + acc0;
+			const float t1 = x1 * y0;
+			const float s = t0 - t1;
+			const float t2 = y0 + y1;
+			const float t3 = t2 * y0;
+			const float t4 = y1 * y1;
+			const float t5 = t3 + t4;
+			const float t6 = t5 * y0;
+			const float t7 = t4 * y1;
+			const float t8 = t6 + t7;
+			const float t9 = t8 * y0;
+			const float t10 = t7 * y1;
+			const float t11 = t9 + t10;
+			const float t12 = t11 * y0;
+			const float t13 = t10 * y1;
+			const float t14 = t12 + t13;
+			const float t15 = t14 * y0;
+			const float t16 = t13 * y1;
+			const float t17 = t15 + t16;
+			const float t18 = t17 * y0;
+			const float t19 = t16 * y1;
+			const float t20 = t18 + t19;
+			const float t21 = t20 * y0;
+			const float t22 = t19 * y1;
+			const float t23 = t21 + t22;
+			const float t24 = s * t23;
+			acc0 = acc0 + t24;
 		}
-		sum[0 + lane] = acc0;
+		sum[lane] = acc0;
 	}
 }

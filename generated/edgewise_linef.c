@@ -12,7 +12,7 @@
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^0 y^0:
  *
  *     1/2 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                 1
  *     1    |      1 |
  *
@@ -22,14 +22,14 @@
  * Cost: 3 mul, 1 add; depth 3. */
 float ew_line_x0y0f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = x0 * y1 - y0 * x1;
-	return 0x1.000000p-1f /* 1/2 */ * t0;
+	const float s = x0 * y1 - x1 * y0;
+	return 0.5f * s;
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^1 y^0:
  *
  *     1/6 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                 1
  *     x0   |      1 |
  *     x1   |      1 |
@@ -40,15 +40,15 @@ float ew_line_x0y0f(float x0, float y0, float x1, float y1)
  * Cost: 4 mul, 2 add; depth 4. */
 float ew_line_x1y0f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = x0 * y1 - y0 * x1;
+	const float s = x0 * y1 - x1 * y0;
 	const float sum = x0 + x1;
-	return 0x1.555556p-3f /* 1/6 */ * (sum * t0);
+	return 0x1.555556p-3f /* 1/6 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^0 y^1:
  *
  *     1/6 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                y0     y1
  *     1    |      1      1 |
  *
@@ -58,15 +58,15 @@ float ew_line_x1y0f(float x0, float y0, float x1, float y1)
  * Cost: 4 mul, 2 add; depth 4. */
 float ew_line_x0y1f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = x0 * y1 - y0 * x1;
+	const float s = x0 * y1 - x1 * y0;
 	const float row0 = y0 + y1;
-	return 0x1.555556p-3f /* 1/6 */ * (row0 * t0);
+	return 0x1.555556p-3f /* 1/6 */ * (row0 * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^2 y^0:
  *
  *     1/12 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                  1
  *     x0^2  |      1 |
  *     x0 x1 |      1 |
@@ -82,14 +82,14 @@ float ew_line_x2y0f(float x0, float y0, float x1, float y1)
 	const float x11 = x1 * x1;
 	const float x01 = x0 * x1;
 	const float sum = (x00 + x11) + x01;
-	const float t0 = x0 * y1 - y0 * x1;
-	return 0x1.555556p-4f /* 1/12 */ * (sum * t0);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.555556p-4f /* 1/12 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^1 y^1:
  *
  *     1/24 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                y0     y1
  *     x0   |      2      1 |
  *     x1   |      1      2 |
@@ -102,15 +102,15 @@ float ew_line_x1y1f(float x0, float y0, float x1, float y1)
 {
 	const float row0 = y1 + 2.0f * y0;
 	const float row1 = y0 + 2.0f * y1;
-	const float sum = x0 * row0 + x1 * row1;
-	const float t0 = x0 * y1 - y0 * x1;
-	return 0x1.555556p-5f /* 1/24 */ * (sum * t0);
+	const float sum = row0 * x0 + row1 * x1;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.555556p-5f /* 1/24 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^0 y^2:
  *
  *     1/12 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *              y0^2  y0 y1   y1^2
  *     1    |      1      1      1 |
  *
@@ -124,14 +124,14 @@ float ew_line_x0y2f(float x0, float y0, float x1, float y1)
 	const float y11 = y1 * y1;
 	const float y01 = y0 * y1;
 	const float row0 = (y00 + y11) + y01;
-	const float t0 = x0 * y1 - y0 * x1;
-	return 0x1.555556p-4f /* 1/12 */ * (row0 * t0);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.555556p-4f /* 1/12 */ * (row0 * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^3 y^0:
  *
  *     1/20 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                    1
  *     x0^3    |      1 |
  *     x0^2 x1 |      1 |
@@ -144,20 +144,22 @@ float ew_line_x0y2f(float x0, float y0, float x1, float y1)
  * Cost: 11 mul, 4 add; depth 6. */
 float ew_line_x3y0f(float x0, float y0, float x1, float y1)
 {
-	const float x000 = x0 * (x0 * x0);
-	const float x111 = x1 * (x1 * x1);
-	const float t0 = x0 * x1;
-	const float x001 = x0 * t0;
-	const float x011 = x1 * t0;
+	const float x00 = x0 * x0;
+	const float x000 = x0 * x00;
+	const float x11 = x1 * x1;
+	const float x111 = x1 * x11;
+	const float x01 = x0 * x1;
+	const float x001 = x0 * x01;
+	const float x011 = x01 * x1;
 	const float sum = (x000 + x111) + (x001 + x011);
-	const float t1 = x0 * y1 - y0 * x1;
-	return 0x1.99999ap-5f /* 1/20 */ * (sum * t1);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.99999ap-5f /* 1/20 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^2 y^1:
  *
  *     1/60 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                 y0     y1
  *     x0^2  |      3      1 |
  *     x0 x1 |      2      2 |
@@ -171,19 +173,19 @@ float ew_line_x2y1f(float x0, float y0, float x1, float y1)
 {
 	const float row0 = y1 + 3.0f * y0;
 	const float x00 = x0 * x0;
-	const float row1 = y0 + 3.0f * y1;
+	const float row2 = y0 + 3.0f * y1;
 	const float x11 = x1 * x1;
-	const float row2 = 2.0f * y0 + 2.0f * y1;
+	const float row1 = 2.0f * y0 + 2.0f * y1;
 	const float x01 = x0 * x1;
-	const float sum = (row0 * x00 + row1 * x11) + row2 * x01;
-	const float t0 = x0 * y1 - y0 * x1;
-	return 0x1.111112p-6f /* 1/60 */ * (sum * t0);
+	const float sum = (row0 * x00 + row2 * x11) + row1 * x01;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.111112p-6f /* 1/60 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^1 y^2:
  *
  *     1/60 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *              y0^2  y0 y1   y1^2
  *     x0   |      3      2      1 |
  *     x1   |      1      2      3 |
@@ -200,15 +202,15 @@ float ew_line_x1y2f(float x0, float y0, float x1, float y1)
 	const float y11 = y1 * y1;
 	const float row0 = (3.0f * y00 + t0) + y11;
 	const float row1 = y00 + (t0 + 3.0f * y11);
-	const float sum = x0 * row0 + x1 * row1;
-	const float t1 = x0 * y1 - y0 * x1;
-	return 0x1.111112p-6f /* 1/60 */ * (sum * t1);
+	const float sum = row0 * x0 + row1 * x1;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.111112p-6f /* 1/60 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^0 y^3:
  *
  *     1/20 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                y0^3  y0^2 y1  y0 y1^2     y1^3
  *     1    |        1        1        1        1 |
  *
@@ -218,20 +220,22 @@ float ew_line_x1y2f(float x0, float y0, float x1, float y1)
  * Cost: 11 mul, 4 add; depth 6. */
 float ew_line_x0y3f(float x0, float y0, float x1, float y1)
 {
-	const float y000 = y0 * (y0 * y0);
-	const float y111 = y1 * (y1 * y1);
-	const float t0 = y0 * y1;
-	const float y001 = y0 * t0;
-	const float y011 = y1 * t0;
+	const float y00 = y0 * y0;
+	const float y000 = y0 * y00;
+	const float y11 = y1 * y1;
+	const float y111 = y1 * y11;
+	const float y01 = y0 * y1;
+	const float y001 = y0 * y01;
+	const float y011 = y01 * y1;
 	const float row0 = (y000 + y111) + (y001 + y011);
-	const float t1 = x0 * y1 - y0 * x1;
-	return 0x1.99999ap-5f /* 1/20 */ * (row0 * t1);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.99999ap-5f /* 1/20 */ * (row0 * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^4 y^0:
  *
  *     1/30 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                      1
  *     x0^4      |      1 |
  *     x0^3 x1   |      1 |
@@ -245,23 +249,23 @@ float ew_line_x0y3f(float x0, float y0, float x1, float y1)
  * Cost: 12 mul, 5 add; depth 7. */
 float ew_line_x4y0f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = x0 * x0;
-	const float x0000 = t0 * t0;
-	const float t1 = x1 * x1;
-	const float x1111 = t1 * t1;
-	const float t2 = x0 * x1;
-	const float x0001 = t0 * t2;
-	const float x0111 = t1 * t2;
-	const float x0011 = t2 * t2;
+	const float x00 = x0 * x0;
+	const float x0000 = x00 * x00;
+	const float x11 = x1 * x1;
+	const float x1111 = x11 * x11;
+	const float x01 = x0 * x1;
+	const float x0001 = x00 * x01;
+	const float x0111 = x11 * x01;
+	const float x0011 = x01 * x01;
 	const float sum = ((x0000 + x1111) + (x0001 + x0111)) + x0011;
-	const float t3 = x0 * y1 - y0 * x1;
-	return 0x1.111112p-5f /* 1/30 */ * (sum * t3);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.111112p-5f /* 1/30 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^3 y^1:
  *
  *     1/120 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                   y0     y1
  *     x0^3    |      4      1 |
  *     x0^2 x1 |      3      2 |
@@ -275,23 +279,25 @@ float ew_line_x4y0f(float x0, float y0, float x1, float y1)
 float ew_line_x3y1f(float x0, float y0, float x1, float y1)
 {
 	const float row0 = y1 + 4.0f * y0;
-	const float x000 = x0 * (x0 * x0);
-	const float row1 = y0 + 4.0f * y1;
-	const float x111 = x1 * (x1 * x1);
-	const float row2 = 3.0f * y0 + 2.0f * y1;
-	const float t0 = x0 * x1;
-	const float x001 = x0 * t0;
-	const float row3 = 3.0f * y1 + 2.0f * y0;
-	const float x011 = x1 * t0;
-	const float sum = (row0 * x000 + row1 * x111) + (row2 * x001 + row3 * x011);
-	const float t1 = x0 * y1 - y0 * x1;
-	return 0x1.111112p-7f /* 1/120 */ * (sum * t1);
+	const float x00 = x0 * x0;
+	const float x000 = x0 * x00;
+	const float row3 = y0 + 4.0f * y1;
+	const float x11 = x1 * x1;
+	const float x111 = x1 * x11;
+	const float row1 = 3.0f * y0 + 2.0f * y1;
+	const float x01 = x0 * x1;
+	const float x001 = x0 * x01;
+	const float row2 = 3.0f * y1 + 2.0f * y0;
+	const float x011 = x01 * x1;
+	const float sum = (row0 * x000 + row3 * x111) + (row1 * x001 + row2 * x011);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.111112p-7f /* 1/120 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^2 y^2:
  *
  *     1/180 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *               y0^2  y0 y1   y1^2
  *     x0^2  |      6      3      1 |
  *     x0 x1 |      3      4      3 |
@@ -309,19 +315,19 @@ float ew_line_x2y2f(float x0, float y0, float x1, float y1)
 	const float y11 = y1 * y1;
 	const float row0 = (6.0f * y00 + t0) + y11;
 	const float x00 = x0 * x0;
-	const float row1 = y00 + (t0 + 6.0f * y11);
+	const float row2 = y00 + (t0 + 6.0f * y11);
 	const float x11 = x1 * x1;
-	const float row2 = (3.0f * y00 + 3.0f * y11) + 4.0f * y01;
+	const float row1 = (3.0f * y00 + 3.0f * y11) + 4.0f * y01;
 	const float x01 = x0 * x1;
-	const float sum = (row0 * x00 + row1 * x11) + row2 * x01;
-	const float t1 = x0 * y1 - y0 * x1;
-	return 0x1.6c16c2p-8f /* 1/180 */ * (sum * t1);
+	const float sum = (row0 * x00 + row2 * x11) + row1 * x01;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.6c16c2p-8f /* 1/180 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^1 y^3:
  *
  *     1/120 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                y0^3  y0^2 y1  y0 y1^2     y1^3
  *     x0   |        4        3        2        1 |
  *     x1   |        1        2        3        4 |
@@ -332,22 +338,24 @@ float ew_line_x2y2f(float x0, float y0, float x1, float y1)
  * Cost: 19 mul, 8 add; depth 10. */
 float ew_line_x1y3f(float x0, float y0, float x1, float y1)
 {
-	const float y000 = y0 * (y0 * y0);
-	const float t0 = y0 * y1;
-	const float y001 = y0 * t0;
-	const float y011 = y1 * t0;
-	const float y111 = y1 * (y1 * y1);
+	const float y00 = y0 * y0;
+	const float y000 = y0 * y00;
+	const float y01 = y0 * y1;
+	const float y001 = y0 * y01;
+	const float y011 = y01 * y1;
+	const float y11 = y1 * y1;
+	const float y111 = y1 * y11;
 	const float row0 = ((4.0f * y000 + 3.0f * y001) + 2.0f * y011) + y111;
 	const float row1 = y000 + ((4.0f * y111 + 3.0f * y011) + 2.0f * y001);
-	const float sum = x0 * row0 + x1 * row1;
-	const float t1 = x0 * y1 - y0 * x1;
-	return 0x1.111112p-7f /* 1/120 */ * (sum * t1);
+	const float sum = row0 * x0 + row1 * x1;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.111112p-7f /* 1/120 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^0 y^4:
  *
  *     1/30 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                  y0^4    y0^3 y1  y0^2 y1^2    y0 y1^3       y1^4
  *     1    |          1          1          1          1          1 |
  *
@@ -357,23 +365,23 @@ float ew_line_x1y3f(float x0, float y0, float x1, float y1)
  * Cost: 12 mul, 5 add; depth 7. */
 float ew_line_x0y4f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = y0 * y0;
-	const float y0000 = t0 * t0;
-	const float t1 = y1 * y1;
-	const float y1111 = t1 * t1;
-	const float t2 = y0 * y1;
-	const float y0001 = t0 * t2;
-	const float y0111 = t1 * t2;
-	const float y0011 = t2 * t2;
+	const float y00 = y0 * y0;
+	const float y0000 = y00 * y00;
+	const float y11 = y1 * y1;
+	const float y1111 = y11 * y11;
+	const float y01 = y0 * y1;
+	const float y0001 = y00 * y01;
+	const float y0111 = y11 * y01;
+	const float y0011 = y01 * y01;
 	const float row0 = ((y0000 + y1111) + (y0001 + y0111)) + y0011;
-	const float t3 = x0 * y1 - y0 * x1;
-	return 0x1.111112p-5f /* 1/30 */ * (row0 * t3);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.111112p-5f /* 1/30 */ * (row0 * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^5 y^0:
  *
  *     1/42 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                      1
  *     x0^5      |      1 |
  *     x0^4 x1   |      1 |
@@ -388,27 +396,27 @@ float ew_line_x0y4f(float x0, float y0, float x1, float y1)
  * Cost: 16 mul, 6 add; depth 8. */
 float ew_line_x5y0f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = x0 * x0;
-	const float t1 = x0 * t0;
-	const float x5_0 = t0 * t1;
-	const float t2 = x1 * x1;
-	const float t3 = x1 * t2;
-	const float x0_5 = t2 * t3;
-	const float t4 = x0 * x1;
-	const float x4_1 = t1 * t4;
-	const float x1_4 = t3 * t4;
-	const float t5 = t4 * t4;
-	const float x3_2 = x0 * t5;
-	const float x2_3 = x1 * t5;
+	const float x00 = x0 * x0;
+	const float x000 = x0 * x00;
+	const float x5_0 = x00 * x000;
+	const float x11 = x1 * x1;
+	const float x111 = x1 * x11;
+	const float x0_5 = x11 * x111;
+	const float x01 = x0 * x1;
+	const float x4_1 = x000 * x01;
+	const float x1_4 = x111 * x01;
+	const float x0011 = x01 * x01;
+	const float x3_2 = x0 * x0011;
+	const float x2_3 = x0011 * x1;
 	const float sum = ((x5_0 + x0_5) + (x4_1 + x1_4)) + (x3_2 + x2_3);
-	const float t6 = x0 * y1 - y0 * x1;
-	return 0x1.861862p-6f /* 1/42 */ * (sum * t6);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.861862p-6f /* 1/42 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^4 y^1:
  *
  *     1/210 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                     y0     y1
  *     x0^4      |      5      1 |
  *     x0^3 x1   |      4      2 |
@@ -422,29 +430,29 @@ float ew_line_x5y0f(float x0, float y0, float x1, float y1)
  * Cost: 25 mul, 10 add; depth 8. */
 float ew_line_x4y1f(float x0, float y0, float x1, float y1)
 {
-	const float row2 = 4.0f * y0 + 2.0f * y1;
-	const float t0 = x0 * x0;
-	const float t1 = x0 * x1;
-	const float x0001 = t0 * t1;
+	const float row1 = 4.0f * y0 + 2.0f * y1;
+	const float x00 = x0 * x0;
+	const float x01 = x0 * x1;
+	const float x0001 = x00 * x01;
 	const float row3 = 4.0f * y1 + 2.0f * y0;
-	const float t2 = x1 * x1;
-	const float x0111 = t2 * t1;
-	const float x0000 = t0 * t0;
+	const float x11 = x1 * x1;
+	const float x0111 = x11 * x01;
+	const float x0000 = x00 * x00;
 	const float row0 = y1 + 5.0f * y0;
-	const float x1111 = t2 * t2;
-	const float row1 = y0 + 5.0f * y1;
-	const float row4 = 3.0f * y0 + 3.0f * y1;
-	const float x0011 = t1 * t1;
-	const float sum = ((row0 * x0000 + row1 * x1111) + (row2 * x0001 + row3 * x0111)) + row4
-		* x0011;
-	const float t3 = x0 * y1 - y0 * x1;
-	return 0x1.381382p-8f /* 1/210 */ * (sum * t3);
+	const float x1111 = x11 * x11;
+	const float row4 = y0 + 5.0f * y1;
+	const float row2 = 3.0f * y0 + 3.0f * y1;
+	const float x0011 = x01 * x01;
+	const float sum = ((row0 * x0000 + row4 * x1111) + (row1 * x0001 + row3 * x0111))
+		+ row2 * x0011;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.381382p-8f /* 1/210 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^3 y^2:
  *
  *     1/420 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                 y0^2  y0 y1   y1^2
  *     x0^3    |     10      4      1 |
  *     x0^2 x1 |      6      6      3 |
@@ -462,24 +470,26 @@ float ew_line_x3y2f(float x0, float y0, float x1, float y1)
 	const float t0 = 4.0f * y01;
 	const float y11 = y1 * y1;
 	const float row0 = (10.0f * y00 + t0) + y11;
-	const float x000 = x0 * (x0 * x0);
-	const float row1 = y00 + (t0 + 10.0f * y11);
-	const float x111 = x1 * (x1 * x1);
+	const float x00 = x0 * x0;
+	const float x000 = x0 * x00;
+	const float row3 = y00 + (t0 + 10.0f * y11);
+	const float x11 = x1 * x1;
+	const float x111 = x1 * x11;
 	const float t1 = 6.0f * y01;
-	const float row2 = (6.0f * y00 + t1) + 3.0f * y11;
-	const float t2 = x0 * x1;
-	const float x001 = x0 * t2;
-	const float row3 = (t1 + 6.0f * y11) + 3.0f * y00;
-	const float x011 = x1 * t2;
-	const float sum = (row0 * x000 + row1 * x111) + (row2 * x001 + row3 * x011);
-	const float t3 = x0 * y1 - y0 * x1;
-	return 0x1.381382p-9f /* 1/420 */ * (sum * t3);
+	const float row1 = (6.0f * y00 + t1) + 3.0f * y11;
+	const float x01 = x0 * x1;
+	const float x001 = x0 * x01;
+	const float row2 = (t1 + 6.0f * y11) + 3.0f * y00;
+	const float x011 = x01 * x1;
+	const float sum = (row0 * x000 + row3 * x111) + (row1 * x001 + row2 * x011);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.381382p-9f /* 1/420 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^2 y^3:
  *
  *     1/420 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                 y0^3  y0^2 y1  y0 y1^2     y1^3
  *     x0^2  |       10        6        3        1 |
  *     x0 x1 |        4        6        6        4 |
@@ -491,28 +501,30 @@ float ew_line_x3y2f(float x0, float y0, float x1, float y1)
  * Cost: 25 mul, 12 add; depth 11. */
 float ew_line_x2y3f(float x0, float y0, float x1, float y1)
 {
-	const float y000 = y0 * (y0 * y0);
-	const float t0 = y0 * y1;
-	const float y001 = y0 * t0;
-	const float t1 = 6.0f * y001;
-	const float y011 = y1 * t0;
-	const float y111 = y1 * (y1 * y1);
-	const float row0 = ((10.0f * y000 + t1) + 3.0f * y011) + y111;
+	const float y00 = y0 * y0;
+	const float y000 = y0 * y00;
+	const float y01 = y0 * y1;
+	const float y001 = y0 * y01;
+	const float t0 = 6.0f * y001;
+	const float y011 = y01 * y1;
+	const float y11 = y1 * y1;
+	const float y111 = y1 * y11;
+	const float row0 = ((10.0f * y000 + t0) + 3.0f * y011) + y111;
 	const float x00 = x0 * x0;
-	const float t2 = 6.0f * y011;
-	const float row1 = y000 + ((10.0f * y111 + t2) + 3.0f * y001);
+	const float t1 = 6.0f * y011;
+	const float row2 = y000 + ((10.0f * y111 + t1) + 3.0f * y001);
 	const float x11 = x1 * x1;
-	const float row2 = (4.0f * y000 + 4.0f * y111) + (t1 + t2);
+	const float row1 = (4.0f * y000 + 4.0f * y111) + (t0 + t1);
 	const float x01 = x0 * x1;
-	const float sum = (row0 * x00 + row1 * x11) + row2 * x01;
-	const float t3 = x0 * y1 - y0 * x1;
-	return 0x1.381382p-9f /* 1/420 */ * (sum * t3);
+	const float sum = (row0 * x00 + row2 * x11) + row1 * x01;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.381382p-9f /* 1/420 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^1 y^4:
  *
  *     1/210 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                  y0^4    y0^3 y1  y0^2 y1^2    y0 y1^3       y1^4
  *     x0   |          5          4          3          2          1 |
  *     x1   |          1          2          3          4          5 |
@@ -523,26 +535,26 @@ float ew_line_x2y3f(float x0, float y0, float x1, float y1)
  * Cost: 21 mul, 10 add; depth 11. */
 float ew_line_x1y4f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = y0 * y0;
-	const float y0000 = t0 * t0;
-	const float t1 = y0 * y1;
-	const float y0001 = t0 * t1;
-	const float y0011 = t1 * t1;
-	const float t2 = 3.0f * y0011;
-	const float t3 = y1 * y1;
-	const float y0111 = t1 * t3;
-	const float y1111 = t3 * t3;
-	const float row0 = (((5.0f * y0000 + 4.0f * y0001) + t2) + 2.0f * y0111) + y1111;
-	const float row1 = y0000 + ((t2 + (5.0f * y1111 + 4.0f * y0111)) + 2.0f * y0001);
-	const float sum = x0 * row0 + x1 * row1;
-	const float t4 = x0 * y1 - y0 * x1;
-	return 0x1.381382p-8f /* 1/210 */ * (sum * t4);
+	const float y00 = y0 * y0;
+	const float y0000 = y00 * y00;
+	const float y01 = y0 * y1;
+	const float y0001 = y00 * y01;
+	const float y0011 = y01 * y01;
+	const float t0 = 3.0f * y0011;
+	const float y11 = y1 * y1;
+	const float y0111 = y01 * y11;
+	const float y1111 = y11 * y11;
+	const float row0 = (((5.0f * y0000 + 4.0f * y0001) + t0) + 2.0f * y0111) + y1111;
+	const float row1 = y0000 + ((t0 + (5.0f * y1111 + 4.0f * y0111)) + 2.0f * y0001);
+	const float sum = row0 * x0 + row1 * x1;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.381382p-8f /* 1/210 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^0 y^5:
  *
  *     1/42 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                  y0^5    y0^4 y1  y0^3 y1^2  y0^2 y1^3    y0 y1^4       y1^5
  *     1    |          1          1          1          1          1          1 |
  *
@@ -552,27 +564,27 @@ float ew_line_x1y4f(float x0, float y0, float x1, float y1)
  * Cost: 16 mul, 6 add; depth 8. */
 float ew_line_x0y5f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = y0 * y0;
-	const float t1 = y0 * t0;
-	const float y5_0 = t0 * t1;
-	const float t2 = y1 * y1;
-	const float t3 = y1 * t2;
-	const float y0_5 = t2 * t3;
-	const float t4 = y0 * y1;
-	const float y4_1 = t1 * t4;
-	const float y1_4 = t3 * t4;
-	const float t5 = t4 * t4;
-	const float y3_2 = y0 * t5;
-	const float y2_3 = y1 * t5;
+	const float y00 = y0 * y0;
+	const float y000 = y0 * y00;
+	const float y5_0 = y00 * y000;
+	const float y11 = y1 * y1;
+	const float y111 = y1 * y11;
+	const float y0_5 = y11 * y111;
+	const float y01 = y0 * y1;
+	const float y4_1 = y000 * y01;
+	const float y1_4 = y111 * y01;
+	const float y0011 = y01 * y01;
+	const float y3_2 = y0 * y0011;
+	const float y2_3 = y0011 * y1;
 	const float row0 = ((y5_0 + y0_5) + (y4_1 + y1_4)) + (y3_2 + y2_3);
-	const float t6 = x0 * y1 - y0 * x1;
-	return 0x1.861862p-6f /* 1/42 */ * (row0 * t6);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.861862p-6f /* 1/42 */ * (row0 * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^6 y^0:
  *
  *     1/56 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                      1
  *     x0^6      |      1 |
  *     x0^5 x1   |      1 |
@@ -588,28 +600,30 @@ float ew_line_x0y5f(float x0, float y0, float x1, float y1)
  * Cost: 19 mul, 7 add; depth 9. */
 float ew_line_x6y0f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = x0 * x0;
-	const float t1 = x0 * t0;
-	const float x6_0 = t1 * t1;
-	const float t2 = x1 * x1;
-	const float t3 = x1 * t2;
-	const float x0_6 = t3 * t3;
-	const float t4 = x0 * x1;
-	const float x5_1 = t4 * (t0 * t0);
-	const float x1_5 = t4 * (t2 * t2);
-	const float t5 = t4 * t4;
-	const float x4_2 = t0 * t5;
-	const float x2_4 = t2 * t5;
-	const float x3_3 = t4 * t5;
+	const float x00 = x0 * x0;
+	const float x000 = x0 * x00;
+	const float x6_0 = x000 * x000;
+	const float x11 = x1 * x1;
+	const float x111 = x1 * x11;
+	const float x0_6 = x111 * x111;
+	const float x0000 = x00 * x00;
+	const float x01 = x0 * x1;
+	const float x5_1 = x01 * x0000;
+	const float x1111 = x11 * x11;
+	const float x1_5 = x01 * x1111;
+	const float x0011 = x01 * x01;
+	const float x4_2 = x00 * x0011;
+	const float x2_4 = x11 * x0011;
+	const float x3_3 = x01 * x0011;
 	const float sum = (((x6_0 + x0_6) + (x5_1 + x1_5)) + (x4_2 + x2_4)) + x3_3;
-	const float t6 = x0 * y1 - y0 * x1;
-	return 0x1.24924ap-6f /* 1/56 */ * (sum * t6);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.24924ap-6f /* 1/56 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^5 y^1:
  *
  *     1/336 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                     y0     y1
  *     x0^5      |      6      1 |
  *     x0^4 x1   |      5      2 |
@@ -625,33 +639,33 @@ float ew_line_x6y0f(float x0, float y0, float x1, float y1)
 float ew_line_x5y1f(float x0, float y0, float x1, float y1)
 {
 	const float row0 = y1 + 6.0f * y0;
-	const float t0 = x0 * x0;
-	const float t1 = x0 * t0;
-	const float x5_0 = t0 * t1;
-	const float row1 = y0 + 6.0f * y1;
-	const float t2 = x1 * x1;
-	const float t3 = x1 * t2;
-	const float x0_5 = t2 * t3;
-	const float row2 = 5.0f * y0 + 2.0f * y1;
-	const float t4 = x0 * x1;
-	const float x4_1 = t1 * t4;
-	const float row3 = 5.0f * y1 + 2.0f * y0;
-	const float x1_4 = t3 * t4;
-	const float row4 = 4.0f * y0 + 3.0f * y1;
-	const float t5 = t4 * t4;
-	const float x3_2 = x0 * t5;
-	const float row5 = 4.0f * y1 + 3.0f * y0;
-	const float x2_3 = x1 * t5;
-	const float sum = ((row0 * x5_0 + row1 * x0_5) + (row2 * x4_1 + row3 * x1_4)) + (row4
-		* x3_2 + row5 * x2_3);
-	const float t6 = x0 * y1 - y0 * x1;
-	return 0x1.861862p-9f /* 1/336 */ * (sum * t6);
+	const float x00 = x0 * x0;
+	const float x000 = x0 * x00;
+	const float x5_0 = x00 * x000;
+	const float row5 = y0 + 6.0f * y1;
+	const float x11 = x1 * x1;
+	const float x111 = x1 * x11;
+	const float x0_5 = x11 * x111;
+	const float row1 = 5.0f * y0 + 2.0f * y1;
+	const float x01 = x0 * x1;
+	const float x4_1 = x000 * x01;
+	const float row4 = 5.0f * y1 + 2.0f * y0;
+	const float x1_4 = x111 * x01;
+	const float row2 = 4.0f * y0 + 3.0f * y1;
+	const float x0011 = x01 * x01;
+	const float x3_2 = x0 * x0011;
+	const float row3 = 4.0f * y1 + 3.0f * y0;
+	const float x2_3 = x0011 * x1;
+	const float sum = ((row0 * x5_0 + row5 * x0_5) + (row1 * x4_1 + row4 * x1_4))
+		+ (row2 * x3_2 + row3 * x2_3);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.861862p-9f /* 1/336 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^4 y^2:
  *
  *     1/840 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                   y0^2  y0 y1   y1^2
  *     x0^4      |     15      5      1 |
  *     x0^3 x1   |     10      8      3 |
@@ -670,29 +684,29 @@ float ew_line_x4y2f(float x0, float y0, float x1, float y1)
 	const float t0 = 5.0f * y01;
 	const float y11 = y1 * y1;
 	const float row0 = (15.0f * y00 + t0) + y11;
-	const float t1 = x0 * x0;
-	const float x0000 = t1 * t1;
-	const float row1 = y00 + (t0 + 15.0f * y11);
-	const float t2 = x1 * x1;
-	const float x1111 = t2 * t2;
-	const float t3 = 8.0f * y01;
-	const float row2 = (10.0f * y00 + t3) + 3.0f * y11;
-	const float t4 = x0 * x1;
-	const float x0001 = t1 * t4;
-	const float row3 = (t3 + 10.0f * y11) + 3.0f * y00;
-	const float x0111 = t2 * t4;
-	const float row4 = (6.0f * y00 + 6.0f * y11) + 9.0f * y01;
-	const float x0011 = t4 * t4;
-	const float sum = ((row0 * x0000 + row1 * x1111) + (row2 * x0001 + row3 * x0111)) + row4
-		* x0011;
-	const float t5 = x0 * y1 - y0 * x1;
-	return 0x1.381382p-10f /* 1/840 */ * (sum * t5);
+	const float x00 = x0 * x0;
+	const float x0000 = x00 * x00;
+	const float row4 = y00 + (t0 + 15.0f * y11);
+	const float x11 = x1 * x1;
+	const float x1111 = x11 * x11;
+	const float t1 = 8.0f * y01;
+	const float row1 = (10.0f * y00 + t1) + 3.0f * y11;
+	const float x01 = x0 * x1;
+	const float x0001 = x00 * x01;
+	const float row3 = (t1 + 10.0f * y11) + 3.0f * y00;
+	const float x0111 = x11 * x01;
+	const float row2 = (6.0f * y00 + 6.0f * y11) + 9.0f * y01;
+	const float x0011 = x01 * x01;
+	const float sum = ((row0 * x0000 + row4 * x1111) + (row1 * x0001 + row3 * x0111))
+		+ row2 * x0011;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.381382p-10f /* 1/840 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^3 y^3:
  *
  *     1/1120 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                   y0^3  y0^2 y1  y0 y1^2     y1^3
  *     x0^3    |       20       10        4        1 |
  *     x0^2 x1 |       10       12        9        4 |
@@ -705,29 +719,33 @@ float ew_line_x4y2f(float x0, float y0, float x1, float y1)
  * Cost: 36 mul, 16 add; depth 11. */
 float ew_line_x3y3f(float x0, float y0, float x1, float y1)
 {
-	const float y000 = y0 * (y0 * y0);
-	const float t0 = y0 * y1;
-	const float y001 = y0 * t0;
-	const float y011 = y1 * t0;
-	const float y111 = y1 * (y1 * y1);
+	const float y00 = y0 * y0;
+	const float y000 = y0 * y00;
+	const float y01 = y0 * y1;
+	const float y001 = y0 * y01;
+	const float y011 = y01 * y1;
+	const float y11 = y1 * y1;
+	const float y111 = y1 * y11;
 	const float row0 = ((20.0f * y000 + 10.0f * y001) + 4.0f * y011) + y111;
-	const float x000 = x0 * (x0 * x0);
-	const float row1 = y000 + ((20.0f * y111 + 10.0f * y011) + 4.0f * y001);
-	const float x111 = x1 * (x1 * x1);
-	const float row2 = ((10.0f * y000 + 12.0f * y001) + 9.0f * y011) + 4.0f * y111;
-	const float t1 = x0 * x1;
-	const float x001 = x0 * t1;
-	const float row3 = ((10.0f * y111 + 12.0f * y011) + 9.0f * y001) + 4.0f * y000;
-	const float x011 = x1 * t1;
-	const float sum = (row0 * x000 + row1 * x111) + (row2 * x001 + row3 * x011);
-	const float t2 = x0 * y1 - y0 * x1;
-	return 0x1.d41d42p-11f /* 1/1120 */ * (sum * t2);
+	const float x00 = x0 * x0;
+	const float x000 = x0 * x00;
+	const float row3 = y000 + ((20.0f * y111 + 10.0f * y011) + 4.0f * y001);
+	const float x11 = x1 * x1;
+	const float x111 = x1 * x11;
+	const float row1 = ((10.0f * y000 + 12.0f * y001) + 9.0f * y011) + 4.0f * y111;
+	const float x01 = x0 * x1;
+	const float x001 = x0 * x01;
+	const float row2 = ((10.0f * y111 + 12.0f * y011) + 9.0f * y001) + 4.0f * y000;
+	const float x011 = x01 * x1;
+	const float sum = (row0 * x000 + row3 * x111) + (row1 * x001 + row2 * x011);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.d41d42p-11f /* 1/1120 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^2 y^4:
  *
  *     1/840 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                   y0^4    y0^3 y1  y0^2 y1^2    y0 y1^3       y1^4
  *     x0^2  |         15         10          6          3          1 |
  *     x0 x1 |          5          8          9          8          5 |
@@ -739,31 +757,31 @@ float ew_line_x3y3f(float x0, float y0, float x1, float y1)
  * Cost: 30 mul, 15 add; depth 12. */
 float ew_line_x2y4f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = y0 * y0;
-	const float y0000 = t0 * t0;
-	const float t1 = y0 * y1;
-	const float y0001 = t0 * t1;
-	const float y0011 = t1 * t1;
-	const float t2 = 6.0f * y0011;
-	const float t3 = y1 * y1;
-	const float y0111 = t1 * t3;
-	const float y1111 = t3 * t3;
-	const float row0 = (((15.0f * y0000 + 10.0f * y0001) + t2) + 3.0f * y0111) + y1111;
+	const float y00 = y0 * y0;
+	const float y0000 = y00 * y00;
+	const float y01 = y0 * y1;
+	const float y0001 = y00 * y01;
+	const float y0011 = y01 * y01;
+	const float t0 = 6.0f * y0011;
+	const float y11 = y1 * y1;
+	const float y0111 = y01 * y11;
+	const float y1111 = y11 * y11;
+	const float row0 = (((15.0f * y0000 + 10.0f * y0001) + t0) + 3.0f * y0111) + y1111;
 	const float x00 = x0 * x0;
-	const float row1 = y0000 + ((t2 + (15.0f * y1111 + 10.0f * y0111)) + 3.0f * y0001);
+	const float row2 = y0000 + ((t0 + (15.0f * y1111 + 10.0f * y0111)) + 3.0f * y0001);
 	const float x11 = x1 * x1;
-	const float row2 = ((5.0f * y0000 + 5.0f * y1111) + (8.0f * y0001 + 8.0f * y0111)) + 9.0f
-		* y0011;
+	const float row1 = ((5.0f * y0000 + 5.0f * y1111) + (8.0f * y0001 + 8.0f * y0111))
+		+ 9.0f * y0011;
 	const float x01 = x0 * x1;
-	const float sum = (row0 * x00 + row1 * x11) + row2 * x01;
-	const float t4 = x0 * y1 - y0 * x1;
-	return 0x1.381382p-10f /* 1/840 */ * (sum * t4);
+	const float sum = (row0 * x00 + row2 * x11) + row1 * x01;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.381382p-10f /* 1/840 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^1 y^5:
  *
  *     1/336 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                  y0^5    y0^4 y1  y0^3 y1^2  y0^2 y1^3    y0 y1^4       y1^5
  *     x0   |          6          5          4          3          2          1 |
  *     x1   |          1          2          3          4          5          6 |
@@ -774,31 +792,31 @@ float ew_line_x2y4f(float x0, float y0, float x1, float y1)
  * Cost: 28 mul, 12 add; depth 13. */
 float ew_line_x1y5f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = y0 * y0;
-	const float t1 = y0 * t0;
-	const float y5_0 = t0 * t1;
-	const float t2 = y0 * y1;
-	const float y4_1 = t1 * t2;
-	const float t3 = t2 * t2;
-	const float y3_2 = y0 * t3;
-	const float y2_3 = y1 * t3;
-	const float t4 = y1 * y1;
-	const float t5 = y1 * t4;
-	const float y1_4 = t2 * t5;
-	const float y0_5 = t4 * t5;
-	const float row0 = ((((6.0f * y5_0 + 5.0f * y4_1) + 4.0f * y3_2) + 3.0f * y2_3) + 2.0f
-		* y1_4) + y0_5;
+	const float y00 = y0 * y0;
+	const float y000 = y0 * y00;
+	const float y5_0 = y00 * y000;
+	const float y01 = y0 * y1;
+	const float y4_1 = y000 * y01;
+	const float y0011 = y01 * y01;
+	const float y3_2 = y0 * y0011;
+	const float y2_3 = y0011 * y1;
+	const float y11 = y1 * y1;
+	const float y111 = y1 * y11;
+	const float y1_4 = y01 * y111;
+	const float y0_5 = y11 * y111;
+	const float row0 = ((((6.0f * y5_0 + 5.0f * y4_1) + 4.0f * y3_2) + 3.0f * y2_3)
+		+ 2.0f * y1_4) + y0_5;
 	const float row1 = y5_0 + ((((6.0f * y0_5 + 5.0f * y1_4) + 4.0f * y2_3) + 3.0f * y3_2)
 		+ 2.0f * y4_1);
-	const float sum = x0 * row0 + x1 * row1;
-	const float t6 = x0 * y1 - y0 * x1;
-	return 0x1.861862p-9f /* 1/336 */ * (sum * t6);
+	const float sum = row0 * x0 + row1 * x1;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.861862p-9f /* 1/336 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^0 y^6:
  *
  *     1/56 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                  y0^6    y0^5 y1  y0^4 y1^2  y0^3 y1^3  y0^2 y1^4    y0 y1^5       y1^6
  *     1    |          1          1          1          1          1          1          1 |
  *
@@ -808,28 +826,30 @@ float ew_line_x1y5f(float x0, float y0, float x1, float y1)
  * Cost: 19 mul, 7 add; depth 9. */
 float ew_line_x0y6f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = y0 * y0;
-	const float t1 = y0 * t0;
-	const float y6_0 = t1 * t1;
-	const float t2 = y1 * y1;
-	const float t3 = y1 * t2;
-	const float y0_6 = t3 * t3;
-	const float t4 = y0 * y1;
-	const float y5_1 = t4 * (t0 * t0);
-	const float y1_5 = t4 * (t2 * t2);
-	const float t5 = t4 * t4;
-	const float y4_2 = t0 * t5;
-	const float y2_4 = t2 * t5;
-	const float y3_3 = t4 * t5;
+	const float y00 = y0 * y0;
+	const float y000 = y0 * y00;
+	const float y6_0 = y000 * y000;
+	const float y11 = y1 * y1;
+	const float y111 = y1 * y11;
+	const float y0_6 = y111 * y111;
+	const float y0000 = y00 * y00;
+	const float y01 = y0 * y1;
+	const float y5_1 = y01 * y0000;
+	const float y1111 = y11 * y11;
+	const float y1_5 = y01 * y1111;
+	const float y0011 = y01 * y01;
+	const float y4_2 = y00 * y0011;
+	const float y2_4 = y11 * y0011;
+	const float y3_3 = y01 * y0011;
 	const float row0 = (((y6_0 + y0_6) + (y5_1 + y1_5)) + (y4_2 + y2_4)) + y3_3;
-	const float t6 = x0 * y1 - y0 * x1;
-	return 0x1.24924ap-6f /* 1/56 */ * (row0 * t6);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.24924ap-6f /* 1/56 */ * (row0 * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^7 y^0:
  *
  *     1/72 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                      1
  *     x0^7      |      1 |
  *     x0^6 x1   |      1 |
@@ -846,30 +866,34 @@ float ew_line_x0y6f(float x0, float y0, float x1, float y1)
  * Cost: 23 mul, 8 add; depth 10. */
 float ew_line_x7y0f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = x0 * x0;
-	const float t1 = x0 * t0;
-	const float x7_0 = t1 * (t0 * t0);
-	const float t2 = x1 * x1;
-	const float t3 = x1 * t2;
-	const float x0_7 = t3 * (t2 * t2);
-	const float t4 = x0 * x1;
-	const float x6_1 = t4 * (t0 * t1);
-	const float x1_6 = t4 * (t2 * t3);
-	const float t5 = t4 * t4;
-	const float x5_2 = t1 * t5;
-	const float x2_5 = t3 * t5;
-	const float t6 = t4 * t5;
-	const float x4_3 = x0 * t6;
-	const float x3_4 = x1 * t6;
+	const float x00 = x0 * x0;
+	const float x0000 = x00 * x00;
+	const float x000 = x0 * x00;
+	const float x7_0 = x000 * x0000;
+	const float x11 = x1 * x1;
+	const float x1111 = x11 * x11;
+	const float x111 = x1 * x11;
+	const float x0_7 = x111 * x1111;
+	const float x5_0 = x00 * x000;
+	const float x01 = x0 * x1;
+	const float x6_1 = x01 * x5_0;
+	const float x0_5 = x11 * x111;
+	const float x1_6 = x01 * x0_5;
+	const float x0011 = x01 * x01;
+	const float x5_2 = x000 * x0011;
+	const float x2_5 = x111 * x0011;
+	const float x3_3 = x01 * x0011;
+	const float x4_3 = x0 * x3_3;
+	const float x3_4 = x1 * x3_3;
 	const float sum = (((x7_0 + x0_7) + (x6_1 + x1_6)) + (x5_2 + x2_5)) + (x4_3 + x3_4);
-	const float t7 = x0 * y1 - y0 * x1;
-	return 0x1.c71c72p-7f /* 1/72 */ * (sum * t7);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.c71c72p-7f /* 1/72 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^6 y^1:
  *
  *     1/504 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                     y0     y1
  *     x0^6      |      7      1 |
  *     x0^5 x1   |      6      2 |
@@ -885,36 +909,38 @@ float ew_line_x7y0f(float x0, float y0, float x1, float y1)
  * Cost: 38 mul, 14 add; depth 10. */
 float ew_line_x6y1f(float x0, float y0, float x1, float y1)
 {
-	const float row2 = 6.0f * y0 + 2.0f * y1;
-	const float t0 = x0 * x0;
-	const float t1 = x0 * x1;
-	const float x5_1 = t1 * (t0 * t0);
-	const float row3 = 6.0f * y1 + 2.0f * y0;
-	const float t2 = x1 * x1;
-	const float x1_5 = t1 * (t2 * t2);
-	const float t3 = x0 * t0;
-	const float x6_0 = t3 * t3;
+	const float row1 = 6.0f * y0 + 2.0f * y1;
+	const float x00 = x0 * x0;
+	const float x0000 = x00 * x00;
+	const float x01 = x0 * x1;
+	const float x5_1 = x01 * x0000;
+	const float row5 = 6.0f * y1 + 2.0f * y0;
+	const float x11 = x1 * x1;
+	const float x1111 = x11 * x11;
+	const float x1_5 = x01 * x1111;
+	const float x000 = x0 * x00;
+	const float x6_0 = x000 * x000;
 	const float row0 = y1 + 7.0f * y0;
-	const float t4 = x1 * t2;
-	const float x0_6 = t4 * t4;
-	const float row1 = y0 + 7.0f * y1;
-	const float row4 = 5.0f * y0 + 3.0f * y1;
-	const float t5 = t1 * t1;
-	const float x4_2 = t0 * t5;
-	const float row5 = 5.0f * y1 + 3.0f * y0;
-	const float x2_4 = t2 * t5;
-	const float row6 = 4.0f * y0 + 4.0f * y1;
-	const float x3_3 = t1 * t5;
-	const float sum = (((row0 * x6_0 + row1 * x0_6) + (row2 * x5_1 + row3 * x1_5)) + (row4
-		* x4_2 + row5 * x2_4)) + row6 * x3_3;
-	const float t6 = x0 * y1 - y0 * x1;
-	return 0x1.041042p-9f /* 1/504 */ * (sum * t6);
+	const float x111 = x1 * x11;
+	const float x0_6 = x111 * x111;
+	const float row6 = y0 + 7.0f * y1;
+	const float row2 = 5.0f * y0 + 3.0f * y1;
+	const float x0011 = x01 * x01;
+	const float x4_2 = x00 * x0011;
+	const float row4 = 5.0f * y1 + 3.0f * y0;
+	const float x2_4 = x11 * x0011;
+	const float row3 = 4.0f * y0 + 4.0f * y1;
+	const float x3_3 = x01 * x0011;
+	const float sum = (((row0 * x6_0 + row6 * x0_6) + (row1 * x5_1 + row5 * x1_5))
+		+ (row2 * x4_2 + row4 * x2_4)) + row3 * x3_3;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.041042p-9f /* 1/504 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^5 y^2:
  *
  *     1/1512 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                   y0^2  y0 y1   y1^2
  *     x0^5      |     21      6      1 |
  *     x0^4 x1   |     15     10      3 |
@@ -934,35 +960,35 @@ float ew_line_x5y2f(float x0, float y0, float x1, float y1)
 	const float t0 = 6.0f * y01;
 	const float y11 = y1 * y1;
 	const float row0 = (21.0f * y00 + t0) + y11;
-	const float t1 = x0 * x0;
-	const float t2 = x0 * t1;
-	const float x5_0 = t1 * t2;
-	const float row1 = y00 + (t0 + 21.0f * y11);
-	const float t3 = x1 * x1;
-	const float t4 = x1 * t3;
-	const float x0_5 = t3 * t4;
-	const float t5 = 10.0f * y01;
-	const float row2 = (15.0f * y00 + t5) + 3.0f * y11;
-	const float t6 = x0 * x1;
-	const float x4_1 = t2 * t6;
-	const float row3 = (t5 + 15.0f * y11) + 3.0f * y00;
-	const float x1_4 = t4 * t6;
-	const float t7 = 12.0f * y01;
-	const float row4 = (10.0f * y00 + t7) + 6.0f * y11;
-	const float t8 = t6 * t6;
-	const float x3_2 = x0 * t8;
-	const float row5 = (t7 + 10.0f * y11) + 6.0f * y00;
-	const float x2_3 = x1 * t8;
-	const float sum = ((row0 * x5_0 + row1 * x0_5) + (row2 * x4_1 + row3 * x1_4)) + (row4
-		* x3_2 + row5 * x2_3);
-	const float t9 = x0 * y1 - y0 * x1;
-	return 0x1.5ac056p-11f /* 1/1512 */ * (sum * t9);
+	const float x00 = x0 * x0;
+	const float x000 = x0 * x00;
+	const float x5_0 = x00 * x000;
+	const float row5 = y00 + (t0 + 21.0f * y11);
+	const float x11 = x1 * x1;
+	const float x111 = x1 * x11;
+	const float x0_5 = x11 * x111;
+	const float t1 = 10.0f * y01;
+	const float row1 = (15.0f * y00 + t1) + 3.0f * y11;
+	const float x01 = x0 * x1;
+	const float x4_1 = x000 * x01;
+	const float row4 = (t1 + 15.0f * y11) + 3.0f * y00;
+	const float x1_4 = x111 * x01;
+	const float t2 = 12.0f * y01;
+	const float row2 = (10.0f * y00 + t2) + 6.0f * y11;
+	const float x0011 = x01 * x01;
+	const float x3_2 = x0 * x0011;
+	const float row3 = (t2 + 10.0f * y11) + 6.0f * y00;
+	const float x2_3 = x0011 * x1;
+	const float sum = ((row0 * x5_0 + row5 * x0_5) + (row1 * x4_1 + row4 * x1_4))
+		+ (row2 * x3_2 + row3 * x2_3);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.5ac056p-11f /* 1/1512 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^4 y^3:
  *
  *     1/2520 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                     y0^3  y0^2 y1  y0 y1^2     y1^3
  *     x0^4      |       35       15        5        1 |
  *     x0^3 x1   |       20       20       12        4 |
@@ -976,34 +1002,36 @@ float ew_line_x5y2f(float x0, float y0, float x1, float y1)
  * Cost: 42 mul, 20 add; depth 12. */
 float ew_line_x4y3f(float x0, float y0, float x1, float y1)
 {
-	const float y000 = y0 * (y0 * y0);
-	const float t0 = y0 * y1;
-	const float y001 = y0 * t0;
-	const float y011 = y1 * t0;
-	const float y111 = y1 * (y1 * y1);
+	const float y00 = y0 * y0;
+	const float y000 = y0 * y00;
+	const float y01 = y0 * y1;
+	const float y001 = y0 * y01;
+	const float y011 = y01 * y1;
+	const float y11 = y1 * y1;
+	const float y111 = y1 * y11;
 	const float row0 = ((35.0f * y000 + 15.0f * y001) + 5.0f * y011) + y111;
-	const float t1 = x0 * x0;
-	const float x0000 = t1 * t1;
-	const float row1 = y000 + ((35.0f * y111 + 15.0f * y011) + 5.0f * y001);
-	const float t2 = x1 * x1;
-	const float x1111 = t2 * t2;
-	const float row2 = ((20.0f * y000 + 20.0f * y001) + 12.0f * y011) + 4.0f * y111;
-	const float t3 = x0 * x1;
-	const float x0001 = t1 * t3;
+	const float x00 = x0 * x0;
+	const float x0000 = x00 * x00;
+	const float row4 = y000 + ((35.0f * y111 + 15.0f * y011) + 5.0f * y001);
+	const float x11 = x1 * x1;
+	const float x1111 = x11 * x11;
+	const float row1 = ((20.0f * y000 + 20.0f * y001) + 12.0f * y011) + 4.0f * y111;
+	const float x01 = x0 * x1;
+	const float x0001 = x00 * x01;
 	const float row3 = ((20.0f * y111 + 20.0f * y011) + 12.0f * y001) + 4.0f * y000;
-	const float x0111 = t2 * t3;
-	const float row4 = (10.0f * y000 + 10.0f * y111) + (18.0f * y001 + 18.0f * y011);
-	const float x0011 = t3 * t3;
-	const float sum = ((row0 * x0000 + row1 * x1111) + (row2 * x0001 + row3 * x0111)) + row4
-		* x0011;
-	const float t4 = x0 * y1 - y0 * x1;
-	return 0x1.a01a02p-12f /* 1/2520 */ * (sum * t4);
+	const float x0111 = x11 * x01;
+	const float row2 = (10.0f * y000 + 10.0f * y111) + (18.0f * y001 + 18.0f * y011);
+	const float x0011 = x01 * x01;
+	const float sum = ((row0 * x0000 + row4 * x1111) + (row1 * x0001 + row3 * x0111))
+		+ row2 * x0011;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.a01a02p-12f /* 1/2520 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^3 y^4:
  *
  *     1/2520 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                     y0^4    y0^3 y1  y0^2 y1^2    y0 y1^3       y1^4
  *     x0^3    |         35         20         10          4          1 |
  *     x0^2 x1 |         15         20         18         12          5 |
@@ -1016,36 +1044,38 @@ float ew_line_x4y3f(float x0, float y0, float x1, float y1)
  * Cost: 37 mul, 20 add; depth 12. */
 float ew_line_x3y4f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = y0 * y0;
-	const float y0000 = t0 * t0;
-	const float t1 = y0 * y1;
-	const float y0001 = t0 * t1;
-	const float t2 = 20.0f * y0001;
-	const float y0011 = t1 * t1;
-	const float t3 = 10.0f * y0011;
-	const float t4 = y1 * y1;
-	const float y0111 = t1 * t4;
-	const float y1111 = t4 * t4;
-	const float row0 = (((35.0f * y0000 + t2) + t3) + 4.0f * y0111) + y1111;
-	const float x000 = x0 * (x0 * x0);
-	const float t5 = 20.0f * y0111;
-	const float row1 = y0000 + ((t3 + (35.0f * y1111 + t5)) + 4.0f * y0001);
-	const float x111 = x1 * (x1 * x1);
-	const float t6 = 18.0f * y0011;
-	const float row2 = (((t2 + 15.0f * y0000) + t6) + 12.0f * y0111) + 5.0f * y1111;
-	const float t7 = x0 * x1;
-	const float x001 = x0 * t7;
-	const float row3 = ((t6 + (t5 + 15.0f * y1111)) + 12.0f * y0001) + 5.0f * y0000;
-	const float x011 = x1 * t7;
-	const float sum = (row0 * x000 + row1 * x111) + (row2 * x001 + row3 * x011);
-	const float t8 = x0 * y1 - y0 * x1;
-	return 0x1.a01a02p-12f /* 1/2520 */ * (sum * t8);
+	const float y00 = y0 * y0;
+	const float y0000 = y00 * y00;
+	const float y01 = y0 * y1;
+	const float y0001 = y00 * y01;
+	const float t0 = 20.0f * y0001;
+	const float y0011 = y01 * y01;
+	const float t1 = 10.0f * y0011;
+	const float y11 = y1 * y1;
+	const float y0111 = y01 * y11;
+	const float y1111 = y11 * y11;
+	const float row0 = (((35.0f * y0000 + t0) + t1) + 4.0f * y0111) + y1111;
+	const float x00 = x0 * x0;
+	const float x000 = x0 * x00;
+	const float t2 = 20.0f * y0111;
+	const float row3 = y0000 + ((t1 + (35.0f * y1111 + t2)) + 4.0f * y0001);
+	const float x11 = x1 * x1;
+	const float x111 = x1 * x11;
+	const float t3 = 18.0f * y0011;
+	const float row1 = (((t0 + 15.0f * y0000) + t3) + 12.0f * y0111) + 5.0f * y1111;
+	const float x01 = x0 * x1;
+	const float x001 = x0 * x01;
+	const float row2 = ((t3 + (t2 + 15.0f * y1111)) + 12.0f * y0001) + 5.0f * y0000;
+	const float x011 = x01 * x1;
+	const float sum = (row0 * x000 + row3 * x111) + (row1 * x001 + row2 * x011);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.a01a02p-12f /* 1/2520 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^2 y^5:
  *
  *     1/1512 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                   y0^5    y0^4 y1  y0^3 y1^2  y0^2 y1^3    y0 y1^4       y1^5
  *     x0^2  |         21         15         10          6          3          1 |
  *     x0 x1 |          6         10         12         12         10          6 |
@@ -1057,36 +1087,36 @@ float ew_line_x3y4f(float x0, float y0, float x1, float y1)
  * Cost: 38 mul, 18 add; depth 14. */
 float ew_line_x2y5f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = y0 * y0;
-	const float t1 = y0 * t0;
-	const float y5_0 = t0 * t1;
-	const float t2 = y0 * y1;
-	const float y4_1 = t1 * t2;
-	const float t3 = t2 * t2;
-	const float y3_2 = y0 * t3;
-	const float y2_3 = y1 * t3;
-	const float t4 = y1 * y1;
-	const float t5 = y1 * t4;
-	const float y1_4 = t2 * t5;
-	const float y0_5 = t4 * t5;
-	const float row0 = ((((21.0f * y5_0 + 15.0f * y4_1) + 10.0f * y3_2) + 6.0f * y2_3) + 3.0f
-		* y1_4) + y0_5;
+	const float y00 = y0 * y0;
+	const float y000 = y0 * y00;
+	const float y5_0 = y00 * y000;
+	const float y01 = y0 * y1;
+	const float y4_1 = y000 * y01;
+	const float y0011 = y01 * y01;
+	const float y3_2 = y0 * y0011;
+	const float y2_3 = y0011 * y1;
+	const float y11 = y1 * y1;
+	const float y111 = y1 * y11;
+	const float y1_4 = y01 * y111;
+	const float y0_5 = y11 * y111;
+	const float row0 = ((((21.0f * y5_0 + 15.0f * y4_1) + 10.0f * y3_2) + 6.0f * y2_3)
+		+ 3.0f * y1_4) + y0_5;
 	const float x00 = x0 * x0;
-	const float row1 = y5_0 + ((((21.0f * y0_5 + 15.0f * y1_4) + 10.0f * y2_3) + 6.0f * y3_2)
+	const float row2 = y5_0 + ((((21.0f * y0_5 + 15.0f * y1_4) + 10.0f * y2_3) + 6.0f * y3_2)
 		+ 3.0f * y4_1);
 	const float x11 = x1 * x1;
-	const float row2 = ((6.0f * y5_0 + 6.0f * y0_5) + (10.0f * y4_1 + 10.0f * y1_4)) + (12.0f
-		* y3_2 + 12.0f * y2_3);
+	const float row1 = ((6.0f * y5_0 + 6.0f * y0_5) + (10.0f * y4_1 + 10.0f * y1_4))
+		+ (12.0f * y3_2 + 12.0f * y2_3);
 	const float x01 = x0 * x1;
-	const float sum = (row0 * x00 + row1 * x11) + row2 * x01;
-	const float t6 = x0 * y1 - y0 * x1;
-	return 0x1.5ac056p-11f /* 1/1512 */ * (sum * t6);
+	const float sum = (row0 * x00 + row2 * x11) + row1 * x01;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.5ac056p-11f /* 1/1512 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^1 y^6:
  *
  *     1/504 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                  y0^6    y0^5 y1  y0^4 y1^2  y0^3 y1^3  y0^2 y1^4    y0 y1^5       y1^6
  *     x0   |          7          6          5          4          3          2          1 |
  *     x1   |          1          2          3          4          5          6          7 |
@@ -1097,33 +1127,35 @@ float ew_line_x2y5f(float x0, float y0, float x1, float y1)
  * Cost: 32 mul, 14 add; depth 14. */
 float ew_line_x1y6f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = y0 * y0;
-	const float t1 = y0 * t0;
-	const float y6_0 = t1 * t1;
-	const float t2 = y0 * y1;
-	const float y5_1 = t2 * (t0 * t0);
-	const float t3 = t2 * t2;
-	const float y4_2 = t0 * t3;
-	const float y3_3 = t2 * t3;
-	const float t4 = 4.0f * y3_3;
-	const float t5 = y1 * y1;
-	const float y2_4 = t3 * t5;
-	const float y1_5 = t2 * (t5 * t5);
-	const float t6 = y1 * t5;
-	const float y0_6 = t6 * t6;
-	const float row0 = (((((7.0f * y6_0 + 6.0f * y5_1) + 5.0f * y4_2) + t4) + 3.0f * y2_4)
+	const float y00 = y0 * y0;
+	const float y000 = y0 * y00;
+	const float y6_0 = y000 * y000;
+	const float y0000 = y00 * y00;
+	const float y01 = y0 * y1;
+	const float y5_1 = y01 * y0000;
+	const float y0011 = y01 * y01;
+	const float y4_2 = y00 * y0011;
+	const float y3_3 = y01 * y0011;
+	const float t0 = 4.0f * y3_3;
+	const float y11 = y1 * y1;
+	const float y2_4 = y0011 * y11;
+	const float y1111 = y11 * y11;
+	const float y1_5 = y01 * y1111;
+	const float y111 = y1 * y11;
+	const float y0_6 = y111 * y111;
+	const float row0 = (((((7.0f * y6_0 + 6.0f * y5_1) + 5.0f * y4_2) + t0) + 3.0f * y2_4)
 		+ 2.0f * y1_5) + y0_6;
-	const float row1 = y6_0 + (((t4 + ((7.0f * y0_6 + 6.0f * y1_5) + 5.0f * y2_4)) + 3.0f
-		* y4_2) + 2.0f * y5_1);
-	const float sum = x0 * row0 + x1 * row1;
-	const float t7 = x0 * y1 - y0 * x1;
-	return 0x1.041042p-9f /* 1/504 */ * (sum * t7);
+	const float row1 = y6_0 + (((t0 + ((7.0f * y0_6 + 6.0f * y1_5) + 5.0f * y2_4))
+		+ 3.0f * y4_2) + 2.0f * y5_1);
+	const float sum = row0 * x0 + row1 * x1;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.041042p-9f /* 1/504 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^0 y^7:
  *
  *     1/72 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *     (sum over p, q of C(p+q,q) C(m+n-p-q,n-q) x0^(m-p) x1^p y0^(n-q) y1^q)
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^9.
@@ -1132,30 +1164,34 @@ float ew_line_x1y6f(float x0, float y0, float x1, float y1)
  * Cost: 23 mul, 8 add; depth 10. */
 float ew_line_x0y7f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = y0 * y0;
-	const float t1 = y0 * t0;
-	const float y7_0 = t1 * (t0 * t0);
-	const float t2 = y1 * y1;
-	const float t3 = y1 * t2;
-	const float y0_7 = t3 * (t2 * t2);
-	const float t4 = y0 * y1;
-	const float y6_1 = t4 * (t0 * t1);
-	const float y1_6 = t4 * (t2 * t3);
-	const float t5 = t4 * t4;
-	const float y5_2 = t1 * t5;
-	const float y2_5 = t3 * t5;
-	const float t6 = t4 * t5;
-	const float y4_3 = y0 * t6;
-	const float y3_4 = y1 * t6;
+	const float y00 = y0 * y0;
+	const float y0000 = y00 * y00;
+	const float y000 = y0 * y00;
+	const float y7_0 = y000 * y0000;
+	const float y11 = y1 * y1;
+	const float y1111 = y11 * y11;
+	const float y111 = y1 * y11;
+	const float y0_7 = y111 * y1111;
+	const float y5_0 = y00 * y000;
+	const float y01 = y0 * y1;
+	const float y6_1 = y01 * y5_0;
+	const float y0_5 = y11 * y111;
+	const float y1_6 = y01 * y0_5;
+	const float y0011 = y01 * y01;
+	const float y5_2 = y000 * y0011;
+	const float y2_5 = y111 * y0011;
+	const float y3_3 = y01 * y0011;
+	const float y4_3 = y0 * y3_3;
+	const float y3_4 = y1 * y3_3;
 	const float row0 = (((y7_0 + y0_7) + (y6_1 + y1_6)) + (y5_2 + y2_5)) + (y4_3 + y3_4);
-	const float t7 = x0 * y1 - y0 * x1;
-	return 0x1.c71c72p-7f /* 1/72 */ * (row0 * t7);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.c71c72p-7f /* 1/72 */ * (row0 * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^8 y^0:
  *
  *     1/90 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                      1
  *     x0^8      |      1 |
  *     x0^7 x1   |      1 |
@@ -1173,34 +1209,36 @@ float ew_line_x0y7f(float x0, float y0, float x1, float y1)
  * Cost: 24 mul, 9 add; depth 11. */
 float ew_line_x8y0f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = x0 * x0;
-	const float t1 = t0 * t0;
-	const float x8_0 = t1 * t1;
-	const float t2 = x1 * x1;
-	const float t3 = t2 * t2;
-	const float x0_8 = t3 * t3;
-	const float t4 = x0 * t0;
-	const float t5 = x0 * x1;
-	const float x7_1 = t5 * (t4 * t4);
-	const float t6 = x1 * t2;
-	const float x1_7 = t5 * (t6 * t6);
-	const float t7 = t5 * t5;
-	const float x6_2 = t1 * t7;
-	const float x2_6 = t3 * t7;
-	const float t8 = t5 * t7;
-	const float x5_3 = t0 * t8;
-	const float x3_5 = t2 * t8;
-	const float x4_4 = t7 * t7;
+	const float x00 = x0 * x0;
+	const float x0000 = x00 * x00;
+	const float x8_0 = x0000 * x0000;
+	const float x11 = x1 * x1;
+	const float x1111 = x11 * x11;
+	const float x0_8 = x1111 * x1111;
+	const float x000 = x0 * x00;
+	const float x6_0 = x000 * x000;
+	const float x01 = x0 * x1;
+	const float x7_1 = x01 * x6_0;
+	const float x111 = x1 * x11;
+	const float x0_6 = x111 * x111;
+	const float x1_7 = x01 * x0_6;
+	const float x0011 = x01 * x01;
+	const float x6_2 = x0000 * x0011;
+	const float x2_6 = x1111 * x0011;
+	const float x3_3 = x01 * x0011;
+	const float x5_3 = x00 * x3_3;
+	const float x3_5 = x11 * x3_3;
+	const float x4_4 = x0011 * x0011;
 	const float sum = ((((x8_0 + x0_8) + (x7_1 + x1_7)) + (x6_2 + x2_6)) + (x5_3 + x3_5))
 		+ x4_4;
-	const float t9 = x0 * y1 - y0 * x1;
-	return 0x1.6c16c2p-7f /* 1/90 */ * (sum * t9);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.6c16c2p-7f /* 1/90 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^7 y^1:
  *
  *     1/720 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                     y0     y1
  *     x0^7      |      8      1 |
  *     x0^6 x1   |      7      2 |
@@ -1217,39 +1255,43 @@ float ew_line_x8y0f(float x0, float y0, float x1, float y1)
  * Cost: 45 mul, 16 add; depth 11. */
 float ew_line_x7y1f(float x0, float y0, float x1, float y1)
 {
-	const float row2 = 7.0f * y0 + 2.0f * y1;
-	const float t0 = x0 * x0;
-	const float t1 = x0 * t0;
-	const float t2 = x0 * x1;
-	const float x6_1 = t2 * (t0 * t1);
-	const float row3 = 7.0f * y1 + 2.0f * y0;
-	const float t3 = x1 * x1;
-	const float t4 = x1 * t3;
-	const float x1_6 = t2 * (t3 * t4);
-	const float x7_0 = t1 * (t0 * t0);
+	const float row1 = 7.0f * y0 + 2.0f * y1;
+	const float x00 = x0 * x0;
+	const float x000 = x0 * x00;
+	const float x5_0 = x00 * x000;
+	const float x01 = x0 * x1;
+	const float x6_1 = x01 * x5_0;
+	const float row6 = 7.0f * y1 + 2.0f * y0;
+	const float x11 = x1 * x1;
+	const float x111 = x1 * x11;
+	const float x0_5 = x11 * x111;
+	const float x1_6 = x01 * x0_5;
+	const float x0000 = x00 * x00;
+	const float x7_0 = x000 * x0000;
 	const float row0 = y1 + 8.0f * y0;
-	const float x0_7 = t4 * (t3 * t3);
-	const float row1 = y0 + 8.0f * y1;
-	const float row4 = 6.0f * y0 + 3.0f * y1;
-	const float t5 = t2 * t2;
-	const float x5_2 = t1 * t5;
+	const float x1111 = x11 * x11;
+	const float x0_7 = x111 * x1111;
+	const float row7 = y0 + 8.0f * y1;
+	const float row2 = 6.0f * y0 + 3.0f * y1;
+	const float x0011 = x01 * x01;
+	const float x5_2 = x000 * x0011;
 	const float row5 = 6.0f * y1 + 3.0f * y0;
-	const float x2_5 = t4 * t5;
-	const float row6 = 5.0f * y0 + 4.0f * y1;
-	const float t6 = t2 * t5;
-	const float x4_3 = x0 * t6;
-	const float row7 = 5.0f * y1 + 4.0f * y0;
-	const float x3_4 = x1 * t6;
-	const float sum = (((row0 * x7_0 + row1 * x0_7) + (row2 * x6_1 + row3 * x1_6)) + (row4
-		* x5_2 + row5 * x2_5)) + (row6 * x4_3 + row7 * x3_4);
-	const float t7 = x0 * y1 - y0 * x1;
-	return 0x1.6c16c2p-10f /* 1/720 */ * (sum * t7);
+	const float x2_5 = x111 * x0011;
+	const float row3 = 5.0f * y0 + 4.0f * y1;
+	const float x3_3 = x01 * x0011;
+	const float x4_3 = x0 * x3_3;
+	const float row4 = 5.0f * y1 + 4.0f * y0;
+	const float x3_4 = x1 * x3_3;
+	const float sum = (((row0 * x7_0 + row7 * x0_7) + (row1 * x6_1 + row6 * x1_6))
+		+ (row2 * x5_2 + row5 * x2_5)) + (row3 * x4_3 + row4 * x3_4);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.6c16c2p-10f /* 1/720 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^6 y^2:
  *
  *     1/2520 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                   y0^2  y0 y1   y1^2
  *     x0^6      |     28      7      1 |
  *     x0^5 x1   |     21     12      3 |
@@ -1270,37 +1312,39 @@ float ew_line_x6y2f(float x0, float y0, float x1, float y1)
 	const float t0 = 7.0f * y01;
 	const float y11 = y1 * y1;
 	const float row0 = (28.0f * y00 + t0) + y11;
-	const float t1 = x0 * x0;
-	const float t2 = x0 * t1;
-	const float x6_0 = t2 * t2;
-	const float row1 = y00 + (t0 + 28.0f * y11);
-	const float t3 = x1 * x1;
-	const float t4 = x1 * t3;
-	const float x0_6 = t4 * t4;
-	const float t5 = 12.0f * y01;
-	const float row2 = (21.0f * y00 + t5) + 3.0f * y11;
-	const float t6 = x0 * x1;
-	const float x5_1 = t6 * (t1 * t1);
-	const float row3 = (t5 + 21.0f * y11) + 3.0f * y00;
-	const float x1_5 = t6 * (t3 * t3);
-	const float t7 = 15.0f * y01;
-	const float row4 = (15.0f * y00 + t7) + 6.0f * y11;
-	const float t8 = t6 * t6;
-	const float x4_2 = t1 * t8;
-	const float row5 = (t7 + 15.0f * y11) + 6.0f * y00;
-	const float x2_4 = t3 * t8;
-	const float row6 = (10.0f * y00 + 10.0f * y11) + 16.0f * y01;
-	const float x3_3 = t6 * t8;
-	const float sum = (((row0 * x6_0 + row1 * x0_6) + (row2 * x5_1 + row3 * x1_5)) + (row4
-		* x4_2 + row5 * x2_4)) + row6 * x3_3;
-	const float t9 = x0 * y1 - y0 * x1;
-	return 0x1.a01a02p-12f /* 1/2520 */ * (sum * t9);
+	const float x00 = x0 * x0;
+	const float x000 = x0 * x00;
+	const float x6_0 = x000 * x000;
+	const float row6 = y00 + (t0 + 28.0f * y11);
+	const float x11 = x1 * x1;
+	const float x111 = x1 * x11;
+	const float x0_6 = x111 * x111;
+	const float t1 = 12.0f * y01;
+	const float row1 = (21.0f * y00 + t1) + 3.0f * y11;
+	const float x0000 = x00 * x00;
+	const float x01 = x0 * x1;
+	const float x5_1 = x01 * x0000;
+	const float row5 = (t1 + 21.0f * y11) + 3.0f * y00;
+	const float x1111 = x11 * x11;
+	const float x1_5 = x01 * x1111;
+	const float t2 = 15.0f * y01;
+	const float row2 = (15.0f * y00 + t2) + 6.0f * y11;
+	const float x0011 = x01 * x01;
+	const float x4_2 = x00 * x0011;
+	const float row4 = (t2 + 15.0f * y11) + 6.0f * y00;
+	const float x2_4 = x11 * x0011;
+	const float row3 = (10.0f * y00 + 10.0f * y11) + 16.0f * y01;
+	const float x3_3 = x01 * x0011;
+	const float sum = (((row0 * x6_0 + row6 * x0_6) + (row1 * x5_1 + row5 * x1_5))
+		+ (row2 * x4_2 + row4 * x2_4)) + row3 * x3_3;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.a01a02p-12f /* 1/2520 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^5 y^3:
  *
  *     1/5040 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                     y0^3  y0^2 y1  y0 y1^2     y1^3
  *     x0^5      |       56       21        6        1 |
  *     x0^4 x1   |       35       30       15        4 |
@@ -1315,41 +1359,43 @@ float ew_line_x6y2f(float x0, float y0, float x1, float y1)
  * Cost: 49 mul, 24 add; depth 12. */
 float ew_line_x5y3f(float x0, float y0, float x1, float y1)
 {
-	const float y000 = y0 * (y0 * y0);
-	const float t0 = y0 * y1;
-	const float y001 = y0 * t0;
-	const float y011 = y1 * t0;
-	const float y111 = y1 * (y1 * y1);
+	const float y00 = y0 * y0;
+	const float y000 = y0 * y00;
+	const float y01 = y0 * y1;
+	const float y001 = y0 * y01;
+	const float y011 = y01 * y1;
+	const float y11 = y1 * y1;
+	const float y111 = y1 * y11;
 	const float row0 = ((56.0f * y000 + 21.0f * y001) + 6.0f * y011) + y111;
-	const float t1 = x0 * x0;
-	const float t2 = x0 * t1;
-	const float x5_0 = t1 * t2;
-	const float row1 = y000 + ((56.0f * y111 + 21.0f * y011) + 6.0f * y001);
-	const float t3 = x1 * x1;
-	const float t4 = x1 * t3;
-	const float x0_5 = t3 * t4;
-	const float t5 = 30.0f * y001;
-	const float row2 = ((35.0f * y000 + t5) + 15.0f * y011) + 4.0f * y111;
-	const float t6 = x0 * x1;
-	const float x4_1 = t2 * t6;
-	const float t7 = 30.0f * y011;
-	const float row3 = ((35.0f * y111 + t7) + 15.0f * y001) + 4.0f * y000;
-	const float x1_4 = t4 * t6;
-	const float row4 = ((t5 + 20.0f * y000) + 24.0f * y011) + 10.0f * y111;
-	const float t8 = t6 * t6;
-	const float x3_2 = x0 * t8;
-	const float row5 = ((t7 + 20.0f * y111) + 24.0f * y001) + 10.0f * y000;
-	const float x2_3 = x1 * t8;
-	const float sum = ((row0 * x5_0 + row1 * x0_5) + (row2 * x4_1 + row3 * x1_4)) + (row4
-		* x3_2 + row5 * x2_3);
-	const float t9 = x0 * y1 - y0 * x1;
-	return 0x1.a01a02p-13f /* 1/5040 */ * (sum * t9);
+	const float x00 = x0 * x0;
+	const float x000 = x0 * x00;
+	const float x5_0 = x00 * x000;
+	const float row5 = y000 + ((56.0f * y111 + 21.0f * y011) + 6.0f * y001);
+	const float x11 = x1 * x1;
+	const float x111 = x1 * x11;
+	const float x0_5 = x11 * x111;
+	const float t0 = 30.0f * y001;
+	const float row1 = ((35.0f * y000 + t0) + 15.0f * y011) + 4.0f * y111;
+	const float x01 = x0 * x1;
+	const float x4_1 = x000 * x01;
+	const float t1 = 30.0f * y011;
+	const float row4 = ((35.0f * y111 + t1) + 15.0f * y001) + 4.0f * y000;
+	const float x1_4 = x111 * x01;
+	const float row2 = ((t0 + 20.0f * y000) + 24.0f * y011) + 10.0f * y111;
+	const float x0011 = x01 * x01;
+	const float x3_2 = x0 * x0011;
+	const float row3 = ((t1 + 20.0f * y111) + 24.0f * y001) + 10.0f * y000;
+	const float x2_3 = x0011 * x1;
+	const float sum = ((row0 * x5_0 + row5 * x0_5) + (row1 * x4_1 + row4 * x1_4))
+		+ (row2 * x3_2 + row3 * x2_3);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.a01a02p-13f /* 1/5040 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^4 y^4:
  *
  *     1/6300 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                       y0^4    y0^3 y1  y0^2 y1^2    y0 y1^3       y1^4
  *     x0^4      |         70         35         15          5          1 |
  *     x0^3 x1   |         35         40         30         16          5 |
@@ -1363,40 +1409,40 @@ float ew_line_x5y3f(float x0, float y0, float x1, float y1)
  * Cost: 46 mul, 25 add; depth 13. */
 float ew_line_x4y4f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = y0 * y0;
-	const float y0000 = t0 * t0;
-	const float t1 = y0 * y1;
-	const float y0001 = t0 * t1;
-	const float y0011 = t1 * t1;
-	const float t2 = 15.0f * y0011;
-	const float t3 = y1 * y1;
-	const float y0111 = t1 * t3;
-	const float y1111 = t3 * t3;
-	const float row0 = (((70.0f * y0000 + 35.0f * y0001) + t2) + 5.0f * y0111) + y1111;
-	const float t4 = x0 * x0;
-	const float x0000 = t4 * t4;
-	const float row1 = y0000 + ((t2 + (70.0f * y1111 + 35.0f * y0111)) + 5.0f * y0001);
-	const float t5 = x1 * x1;
-	const float x1111 = t5 * t5;
-	const float t6 = 30.0f * y0011;
-	const float row2 = (((35.0f * y0000 + 40.0f * y0001) + t6) + 16.0f * y0111) + 5.0f * y1111;
-	const float t7 = x0 * x1;
-	const float x0001 = t4 * t7;
-	const float row3 = ((t6 + (35.0f * y1111 + 40.0f * y0111)) + 16.0f * y0001) + 5.0f * y0000;
-	const float x0111 = t5 * t7;
-	const float row4 = ((15.0f * y0000 + 15.0f * y1111) + (30.0f * y0001 + 30.0f * y0111))
+	const float y00 = y0 * y0;
+	const float y0000 = y00 * y00;
+	const float y01 = y0 * y1;
+	const float y0001 = y00 * y01;
+	const float y0011 = y01 * y01;
+	const float t0 = 15.0f * y0011;
+	const float y11 = y1 * y1;
+	const float y0111 = y01 * y11;
+	const float y1111 = y11 * y11;
+	const float row0 = (((70.0f * y0000 + 35.0f * y0001) + t0) + 5.0f * y0111) + y1111;
+	const float x00 = x0 * x0;
+	const float x0000 = x00 * x00;
+	const float row4 = y0000 + ((t0 + (70.0f * y1111 + 35.0f * y0111)) + 5.0f * y0001);
+	const float x11 = x1 * x1;
+	const float x1111 = x11 * x11;
+	const float t1 = 30.0f * y0011;
+	const float row1 = (((35.0f * y0000 + 40.0f * y0001) + t1) + 16.0f * y0111) + 5.0f * y1111;
+	const float x01 = x0 * x1;
+	const float x0001 = x00 * x01;
+	const float row3 = ((t1 + (35.0f * y1111 + 40.0f * y0111)) + 16.0f * y0001) + 5.0f * y0000;
+	const float x0111 = x11 * x01;
+	const float row2 = ((15.0f * y0000 + 15.0f * y1111) + (30.0f * y0001 + 30.0f * y0111))
 		+ 36.0f * y0011;
-	const float x0011 = t7 * t7;
-	const float sum = ((row0 * x0000 + row1 * x1111) + (row2 * x0001 + row3 * x0111)) + row4
-		* x0011;
-	const float t8 = x0 * y1 - y0 * x1;
-	return 0x1.4ce19ap-13f /* 1/6300 */ * (sum * t8);
+	const float x0011 = x01 * x01;
+	const float sum = ((row0 * x0000 + row4 * x1111) + (row1 * x0001 + row3 * x0111))
+		+ row2 * x0011;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.4ce19ap-13f /* 1/6300 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^3 y^5:
  *
  *     1/5040 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                     y0^5    y0^4 y1  y0^3 y1^2  y0^2 y1^3    y0 y1^4       y1^5
  *     x0^3    |         56         35         20         10          4          1 |
  *     x0^2 x1 |         21         30         30         24         15          6 |
@@ -1409,40 +1455,42 @@ float ew_line_x4y4f(float x0, float y0, float x1, float y1)
  * Cost: 49 mul, 24 add; depth 14. */
 float ew_line_x3y5f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = y0 * y0;
-	const float t1 = y0 * t0;
-	const float y5_0 = t0 * t1;
-	const float t2 = y0 * y1;
-	const float y4_1 = t1 * t2;
-	const float t3 = t2 * t2;
-	const float y3_2 = y0 * t3;
-	const float y2_3 = y1 * t3;
-	const float t4 = y1 * y1;
-	const float t5 = y1 * t4;
-	const float y1_4 = t2 * t5;
-	const float y0_5 = t4 * t5;
-	const float row0 = ((((56.0f * y5_0 + 35.0f * y4_1) + 20.0f * y3_2) + 10.0f * y2_3) + 4.0f
-		* y1_4) + y0_5;
-	const float x000 = x0 * (x0 * x0);
-	const float row1 = y5_0 + ((((56.0f * y0_5 + 35.0f * y1_4) + 20.0f * y2_3) + 10.0f * y3_2)
+	const float y00 = y0 * y0;
+	const float y000 = y0 * y00;
+	const float y5_0 = y00 * y000;
+	const float y01 = y0 * y1;
+	const float y4_1 = y000 * y01;
+	const float y0011 = y01 * y01;
+	const float y3_2 = y0 * y0011;
+	const float y2_3 = y0011 * y1;
+	const float y11 = y1 * y1;
+	const float y111 = y1 * y11;
+	const float y1_4 = y01 * y111;
+	const float y0_5 = y11 * y111;
+	const float row0 = ((((56.0f * y5_0 + 35.0f * y4_1) + 20.0f * y3_2) + 10.0f * y2_3)
+		+ 4.0f * y1_4) + y0_5;
+	const float x00 = x0 * x0;
+	const float x000 = x0 * x00;
+	const float row3 = y5_0 + ((((56.0f * y0_5 + 35.0f * y1_4) + 20.0f * y2_3) + 10.0f * y3_2)
 		+ 4.0f * y4_1);
-	const float x111 = x1 * (x1 * x1);
-	const float row2 = ((((21.0f * y5_0 + 30.0f * y4_1) + 30.0f * y3_2) + 24.0f * y2_3) + 15.0f
-		* y1_4) + 6.0f * y0_5;
-	const float t6 = x0 * x1;
-	const float x001 = x0 * t6;
-	const float row3 = ((((21.0f * y0_5 + 30.0f * y1_4) + 30.0f * y2_3) + 24.0f * y3_2) + 15.0f
-		* y4_1) + 6.0f * y5_0;
-	const float x011 = x1 * t6;
-	const float sum = (row0 * x000 + row1 * x111) + (row2 * x001 + row3 * x011);
-	const float t7 = x0 * y1 - y0 * x1;
-	return 0x1.a01a02p-13f /* 1/5040 */ * (sum * t7);
+	const float x11 = x1 * x1;
+	const float x111 = x1 * x11;
+	const float row1 = ((((21.0f * y5_0 + 30.0f * y4_1) + 30.0f * y3_2) + 24.0f * y2_3)
+		+ 15.0f * y1_4) + 6.0f * y0_5;
+	const float x01 = x0 * x1;
+	const float x001 = x0 * x01;
+	const float row2 = ((((21.0f * y0_5 + 30.0f * y1_4) + 30.0f * y2_3) + 24.0f * y3_2)
+		+ 15.0f * y4_1) + 6.0f * y5_0;
+	const float x011 = x01 * x1;
+	const float sum = (row0 * x000 + row3 * x111) + (row1 * x001 + row2 * x011);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.a01a02p-13f /* 1/5040 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^2 y^6:
  *
  *     1/2520 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *                   y0^6    y0^5 y1  y0^4 y1^2  y0^3 y1^3  y0^2 y1^4    y0 y1^5       y1^6
  *     x0^2  |         28         21         15         10          6          3          1 |
  *     x0 x1 |          7         12         15         16         15         12          7 |
@@ -1454,40 +1502,42 @@ float ew_line_x3y5f(float x0, float y0, float x1, float y1)
  * Cost: 41 mul, 21 add; depth 15. */
 float ew_line_x2y6f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = y0 * y0;
-	const float t1 = y0 * t0;
-	const float y6_0 = t1 * t1;
-	const float t2 = y0 * y1;
-	const float y5_1 = t2 * (t0 * t0);
-	const float t3 = t2 * t2;
-	const float y4_2 = t0 * t3;
-	const float t4 = 15.0f * y4_2;
-	const float y3_3 = t2 * t3;
-	const float t5 = 10.0f * y3_3;
-	const float t6 = y1 * y1;
-	const float y2_4 = t3 * t6;
-	const float y1_5 = t2 * (t6 * t6);
-	const float t7 = y1 * t6;
-	const float y0_6 = t7 * t7;
-	const float row0 = (((((28.0f * y6_0 + 21.0f * y5_1) + t4) + t5) + 6.0f * y2_4) + 3.0f
-		* y1_5) + y0_6;
+	const float y00 = y0 * y0;
+	const float y000 = y0 * y00;
+	const float y6_0 = y000 * y000;
+	const float y0000 = y00 * y00;
+	const float y01 = y0 * y1;
+	const float y5_1 = y01 * y0000;
+	const float y0011 = y01 * y01;
+	const float y4_2 = y00 * y0011;
+	const float t0 = 15.0f * y4_2;
+	const float y3_3 = y01 * y0011;
+	const float t1 = 10.0f * y3_3;
+	const float y11 = y1 * y1;
+	const float y2_4 = y0011 * y11;
+	const float y1111 = y11 * y11;
+	const float y1_5 = y01 * y1111;
+	const float y111 = y1 * y11;
+	const float y0_6 = y111 * y111;
+	const float row0 = (((((28.0f * y6_0 + 21.0f * y5_1) + t0) + t1) + 6.0f * y2_4)
+		+ 3.0f * y1_5) + y0_6;
 	const float x00 = x0 * x0;
-	const float t8 = 15.0f * y2_4;
-	const float row1 = y6_0 + (((t5 + ((28.0f * y0_6 + 21.0f * y1_5) + t8)) + 6.0f * y4_2)
+	const float t2 = 15.0f * y2_4;
+	const float row2 = y6_0 + (((t1 + ((28.0f * y0_6 + 21.0f * y1_5) + t2)) + 6.0f * y4_2)
 		+ 3.0f * y5_1);
 	const float x11 = x1 * x1;
-	const float row2 = (((7.0f * y6_0 + 7.0f * y0_6) + (12.0f * y5_1 + 12.0f * y1_5)) + (t4
-		+ t8)) + 16.0f * y3_3;
+	const float row1 = (((7.0f * y6_0 + 7.0f * y0_6) + (12.0f * y5_1 + 12.0f * y1_5)) + (t0
+		+ t2)) + 16.0f * y3_3;
 	const float x01 = x0 * x1;
-	const float sum = (row0 * x00 + row1 * x11) + row2 * x01;
-	const float t9 = x0 * y1 - y0 * x1;
-	return 0x1.a01a02p-12f /* 1/2520 */ * (sum * t9);
+	const float sum = (row0 * x00 + row2 * x11) + row1 * x01;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.a01a02p-12f /* 1/2520 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^1 y^7:
  *
  *     1/720 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *     (sum over p, q of C(p+q,q) C(m+n-p-q,n-q) x0^(m-p) x1^p y0^(n-q) y1^q)
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^10.
@@ -1496,34 +1546,38 @@ float ew_line_x2y6f(float x0, float y0, float x1, float y1)
  * Cost: 39 mul, 16 add; depth 16. */
 float ew_line_x1y7f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = y0 * y0;
-	const float t1 = y0 * t0;
-	const float y7_0 = t1 * (t0 * t0);
-	const float t2 = y0 * y1;
-	const float y6_1 = t2 * (t0 * t1);
-	const float t3 = t2 * t2;
-	const float y5_2 = t1 * t3;
-	const float t4 = t2 * t3;
-	const float y4_3 = y0 * t4;
-	const float y3_4 = y1 * t4;
-	const float t5 = y1 * y1;
-	const float t6 = y1 * t5;
-	const float y2_5 = t3 * t6;
-	const float y1_6 = t2 * (t5 * t6);
-	const float y0_7 = t6 * (t5 * t5);
-	const float row0 = ((((((8.0f * y7_0 + 7.0f * y6_1) + 6.0f * y5_2) + 5.0f * y4_3) + 4.0f
-		* y3_4) + 3.0f * y2_5) + 2.0f * y1_6) + y0_7;
+	const float y00 = y0 * y0;
+	const float y0000 = y00 * y00;
+	const float y000 = y0 * y00;
+	const float y7_0 = y000 * y0000;
+	const float y5_0 = y00 * y000;
+	const float y01 = y0 * y1;
+	const float y6_1 = y01 * y5_0;
+	const float y0011 = y01 * y01;
+	const float y5_2 = y000 * y0011;
+	const float y3_3 = y01 * y0011;
+	const float y4_3 = y0 * y3_3;
+	const float y3_4 = y1 * y3_3;
+	const float y11 = y1 * y1;
+	const float y111 = y1 * y11;
+	const float y2_5 = y0011 * y111;
+	const float y0_5 = y11 * y111;
+	const float y1_6 = y01 * y0_5;
+	const float y1111 = y11 * y11;
+	const float y0_7 = y111 * y1111;
+	const float row0 = ((((((8.0f * y7_0 + 7.0f * y6_1) + 6.0f * y5_2) + 5.0f * y4_3)
+		+ 4.0f * y3_4) + 3.0f * y2_5) + 2.0f * y1_6) + y0_7;
 	const float row1 = y7_0 + ((((((8.0f * y0_7 + 7.0f * y1_6) + 6.0f * y2_5) + 5.0f * y3_4)
 		+ 4.0f * y4_3) + 3.0f * y5_2) + 2.0f * y6_1);
-	const float sum = x0 * row0 + x1 * row1;
-	const float t7 = x0 * y1 - y0 * x1;
-	return 0x1.6c16c2p-10f /* 1/720 */ * (sum * t7);
+	const float sum = row0 * x0 + row1 * x1;
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.6c16c2p-10f /* 1/720 */ * (sum * s);
 }
 
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^0 y^8:
  *
  *     1/90 (x0 y1 - x1 y0) times the sum of row times column times
- * 
+ *
  *     (sum over p, q of C(p+q,q) C(m+n-p-q,n-q) x0^(m-p) x1^p y0^(n-q) y1^q)
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^10.
@@ -1532,26 +1586,28 @@ float ew_line_x1y7f(float x0, float y0, float x1, float y1)
  * Cost: 24 mul, 9 add; depth 11. */
 float ew_line_x0y8f(float x0, float y0, float x1, float y1)
 {
-	const float t0 = y0 * y0;
-	const float t1 = t0 * t0;
-	const float y8_0 = t1 * t1;
-	const float t2 = y1 * y1;
-	const float t3 = t2 * t2;
-	const float y0_8 = t3 * t3;
-	const float t4 = y0 * t0;
-	const float t5 = y0 * y1;
-	const float y7_1 = t5 * (t4 * t4);
-	const float t6 = y1 * t2;
-	const float y1_7 = t5 * (t6 * t6);
-	const float t7 = t5 * t5;
-	const float y6_2 = t1 * t7;
-	const float y2_6 = t3 * t7;
-	const float t8 = t5 * t7;
-	const float y5_3 = t0 * t8;
-	const float y3_5 = t2 * t8;
-	const float y4_4 = t7 * t7;
+	const float y00 = y0 * y0;
+	const float y0000 = y00 * y00;
+	const float y8_0 = y0000 * y0000;
+	const float y11 = y1 * y1;
+	const float y1111 = y11 * y11;
+	const float y0_8 = y1111 * y1111;
+	const float y000 = y0 * y00;
+	const float y6_0 = y000 * y000;
+	const float y01 = y0 * y1;
+	const float y7_1 = y01 * y6_0;
+	const float y111 = y1 * y11;
+	const float y0_6 = y111 * y111;
+	const float y1_7 = y01 * y0_6;
+	const float y0011 = y01 * y01;
+	const float y6_2 = y0000 * y0011;
+	const float y2_6 = y1111 * y0011;
+	const float y3_3 = y01 * y0011;
+	const float y5_3 = y00 * y3_3;
+	const float y3_5 = y11 * y3_3;
+	const float y4_4 = y0011 * y0011;
 	const float row0 = ((((y8_0 + y0_8) + (y7_1 + y1_7)) + (y6_2 + y2_6)) + (y5_3 + y3_5))
 		+ y4_4;
-	const float t9 = x0 * y1 - y0 * x1;
-	return 0x1.6c16c2p-7f /* 1/90 */ * (row0 * t9);
+	const float s = x0 * y1 - x1 * y0;
+	return 0x1.6c16c2p-7f /* 1/90 */ * (row0 * s);
 }

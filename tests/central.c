@@ -5,11 +5,12 @@
  * exact, and with A, M the exact moments about the first vertex, W their weights, g = gamma_K:
  *
  *     centroid:  |error| <= (g W_m + |c| g W_0) / (|A| - g W_0) + 4u |c| + u |result|
- *     central:   |error| <= gamma_(K+T) D(|c| + delta) + D(|c| + delta) - D(|c|)
+ *     central:   |error| <= gamma_(K+T) max(D(|c| + delta), W') + D(|c| + delta) - D(|c|)
  *
  * where D_mn(v) = sum C(m,a) C(n,b) v_x^(m-a) v_y^(n-b) W_ab bounds what translation by v can make
- * of the weights, delta is the error of the centroid, and T = 4 degree + 24 leaves room for either
- * way to the result: translating the moments, or summing a second time about the centroid.
+ * of the weights, W' are the weights about the centroid, delta is the error of the centroid, and
+ * T = 4 degree + 24. That leaves room for either way to the result: translating the moments, or
+ * summing a second time about the centroid.
  *
  * ew_translate_moments itself is held against the binomial sum, term by term.
  */
@@ -20,7 +21,8 @@ enum { TRIES = 300 };
 typedef struct {
 	Ring ring;
 	Ref *moments;           /* about the first vertex */
-	Ref *central;           /* exact central moments; weights are D(|c|) */
+	Ref *central;           /* exact central moments */
+	Ref *about;             /* weights about the nearest double to the centroid */
 	double area, c[2];      /* of the ring about its first vertex */
 	double exact[2];        /* centroid, nearest double */
 	mpq_t mean[2];          /* centroid */
@@ -66,6 +68,12 @@ static void local_compute(Local *l)
 		l->c[i] = mpq_get_d(l->mean[i]);
 	}
 	ref_translate(l->central, EW_MAX_DEGREE, l->moments, back[0], back[1]);
+	for (size_t i = 0; i < ring->n; i++) {
+		x[i] -= l->c[0];
+		y[i] -= l->c[1];
+	}
+	l->about = ref_new(MOMENTS);
+	ref_ring(l->about, EW_MAX_DEGREE, x, y, ring->n);
 	for (int i = 0; i < 2; i++) {
 		mpq_set_d(back[i], i ? ring->y[0] : ring->x[0]);
 		mpq_add(l->mean[i], l->mean[i], back[i]);
@@ -81,6 +89,7 @@ static void local_free(Local *l)
 	ring_free(&l->ring);
 	ref_free(l->moments, MOMENTS);
 	ref_free(l->central, MOMENTS);
+	ref_free(l->about, MOMENTS);
 	mpq_clears(l->mean[0], l->mean[1], NULL);
 }
 
@@ -189,7 +198,8 @@ static void expect_central(const Api *api, const Local *l, int degree, const voi
 	for (int m = 0; m <= degree; m++) {
 		for (int n = 0; m + n <= degree; n++) {
 			const double far = moved_weight(l, m, n, cx + dx, cy + dy);
-			const double bound = g * far + (far - moved_weight(l, m, n, cx, cy))
+			const double about = 1.001 * mpq_get_d(l->about[ref_index(m, n)].weight);
+			const double bound = g * fmax(far, about) + (far - moved_weight(l, m, n, cx, cy))
 				+ ref_tiny(k, m + n, api->bits, l->ring.x, l->ring.y, l->ring.n);
 			const Ref *want = &l->central[ref_index(m, n)];
 			const double got = get(api, out, ref_index(m, n));

@@ -232,18 +232,14 @@ static void test_monomials(const Api *api, const char *target)
 	check_end();
 }
 
-/* The ring moved by (-cx,-cy), every coordinate rounded once. */
+/* The ring moved by (-cx,-cy), every coordinate rounded once: for floats, rounding the difference
+ * to double first changes nothing. */
 static Ring moved_ring(const Api *api, const Ring *ring, double cx, double cy)
 {
 	Ring moved = ring_new(ring->n);
 	for (size_t i = 0; i < ring->n; i++) {
-		if (api->bits == 24) {
-			moved.x[i] = (double)((float)ring->x[i] - (float)cx);
-			moved.y[i] = (double)((float)ring->y[i] - (float)cy);
-		} else {
-			moved.x[i] = ring->x[i] - cx;
-			moved.y[i] = ring->y[i] - cy;
-		}
+		moved.x[i] = ring->x[i] - cx;
+		moved.y[i] = ring->y[i] - cy;
 	}
 	ring_pack(api, &moved);
 	return moved;
@@ -341,81 +337,131 @@ static void test_holes(const Api *api, const char *target)
 	ref_free(whole, MOMENTS);
 }
 
-/* Everything but the central moments, as one list of numbers. */
+/* Everything but the central moments as one list of numbers, in three groups: the vertex form, what
+ * is summed over edges for all moments at once, and single monomials. */
 
-enum { RESULTS = (EW_MAX_DEGREE + 3) * MOMENTS + MOMENTS + 3 };
+enum { FROM_VERTICES, FROM_EDGES = 3, FROM_MONOMIALS = FROM_EDGES + 2 + 164 + 2 * MOMENTS,
+	RESULTS = FROM_MONOMIALS + MOMENTS - 1 };
 
-static int all_results(const Api *api, const Ring *ring, double *out)
+static int add_moments(const Api *api, const double *typed, int count, double *out, int at)
 {
-	double typed[MOMENTS];
-	int count = 0;
-	for (int d = 0; d <= EW_MAX_DEGREE; d++) {
-		api->moments(d, ring->px, ring->py, ring->n, typed);
-		for (int i = 0; i < ref_count(d); i++)
-			out[count++] = get(api, typed, i);
-	}
-	for (int i = 0; i < 2; i++) {
-		if (i == 0)
-			api->about(EW_MAX_DEGREE, ring->px, ring->py, ring->n, 1, -1, typed);
-		else
-			api->xy(EW_MAX_DEGREE, ring->pxy, ring->n, typed);
-		for (int j = 0; j < MOMENTS; j++)
-			out[count++] = get(api, typed, j);
-	}
-	for (int m = 0; m <= EW_MAX_DEGREE; m++) {
-		for (int n = 0; m + n <= EW_MAX_DEGREE; n++)
-			out[count++] = api->moment(m, n, ring->px, ring->py, ring->n);
-	}
-	out[count++] = api->area(ring->px, ring->py, ring->n);
-	api->centroid(ring->px, ring->py, ring->n, typed);
-	out[count++] = get(api, typed, 0);
-	out[count++] = get(api, typed, 1);
-	return count;
+	for (int i = 0; i < count; i++)
+		out[at++] = get(api, typed, i);
+	return at;
 }
 
-static void expect_same_results(const Api *api, const Ring *before, const Ring *after,
-	const char *what)
+static void all_results(const Api *api, const Ring *ring, double out[RESULTS])
+{
+	double typed[MOMENTS];
+	api->moments(0, ring->px, ring->py, ring->n, typed);
+	out[0] = get(api, typed, 0);
+	out[1] = api->area(ring->px, ring->py, ring->n);
+	out[2] = api->moment(0, 0, ring->px, ring->py, ring->n);
+	api->centroid(ring->px, ring->py, ring->n, typed);
+	int at = add_moments(api, typed, 2, out, FROM_EDGES);
+	for (int d = 1; d <= EW_MAX_DEGREE; d++) {
+		api->moments(d, ring->px, ring->py, ring->n, typed);
+		at = add_moments(api, typed, ref_count(d), out, at);
+	}
+	api->about(EW_MAX_DEGREE, ring->px, ring->py, ring->n, 1, -1, typed);
+	at = add_moments(api, typed, MOMENTS, out, at);
+	api->xy(EW_MAX_DEGREE, ring->pxy, ring->n, typed);
+	at = add_moments(api, typed, MOMENTS, out, at);
+	for (int d = 1; d <= EW_MAX_DEGREE; d++) {
+		for (int n = 0; n <= d; n++)
+			out[at++] = api->moment(d - n, n, ring->px, ring->py, ring->n);
+	}
+	if (at != RESULTS)
+		abort();
+}
+
+/* Results from .. to-1 have the same bits. */
+static void expect_same_results(const Api *api, const Ring *before, const Ring *after, int from,
+	int to, const char *what)
 {
 	double a[RESULTS], b[RESULTS];
-	const int count = all_results(api, before, a);
+	all_results(api, before, a);
 	all_results(api, after, b);
-	for (int i = 0; i < count; i++) {
+	for (int i = from; i < to; i++) {
 		const bool both_nan = isnan(a[i]) && isnan(b[i]);
 		expect(both_nan || same_bits(a[i], b[i]), "%s, n = %zu: result %d is %a, was %a", what,
 			before->n, i, b[i], a[i]);
 	}
 }
 
-/* The ring with some vertices doubled and the first one repeated at the end. */
-static Ring with_repeats(const Api *api, const Ring *ring)
+static void expect_same_central(const Api *api, const Ring *before, const Ring *after)
 {
-	Ring more = ring_new(2 * ring->n + 1);
-	more.n = 0;
-	for (size_t i = 0; i <= ring->n; i++) {
-		for (int copies = random_int(1, i < ring->n ? 2 : 1); copies > 0; copies--) {
-			more.x[more.n] = ring->x[i % ring->n];
-			more.y[more.n++] = ring->y[i % ring->n];
+	double a[MOMENTS], b[MOMENTS], c[2], d[2];
+	const int first = api->central(EW_MAX_DEGREE, before->px, before->py, before->n, c, a);
+	const int second = api->central(EW_MAX_DEGREE, after->px, after->py, after->n, d, b);
+	expect(first == second, "central moments return %d, before %d", second, first);
+	if (first != EW_OK)
+		return;
+	expect_same(api, c, d, 2, "centre", before->n);
+	expect_same(api, a, b, MOMENTS, "central", before->n);
+}
+
+/* The ring with copies(i) of its vertex i, and of vertex 0 once more at the end if closed. */
+static Ring with_copies(const Api *api, const Ring *ring, const int *copies, bool closed)
+{
+	size_t n = closed;
+	for (size_t i = 0; i < ring->n; i++)
+		n += (size_t)copies[i];
+	Ring more = ring_new(n);
+	size_t at = 0;
+	for (size_t i = 0; i < ring->n; i++) {
+		for (int j = 0; j < copies[i]; j++) {
+			more.x[at] = ring->x[i];
+			more.y[at++] = ring->y[i];
 		}
+	}
+	if (closed) {
+		more.x[at] = ring->x[0];
+		more.y[at] = ring->y[0];
 	}
 	ring_pack(api, &more);
 	return more;
 }
 
-/* Integers so small that every sum is exact, in whichever lane it is made. */
+/* Integers so small that every sum is exact, in whichever lane it is made. (Kernels of one monomial
+ * may multiply by rounded constants on the way.) */
 static void test_repeated(const Api *api, const char *target)
 {
 	const int most = api->bits == 24 ? 1 : 4;
+	int copies[LARGEST];
 	check_begin("repeated vertices, %s, %s", api->name, target);
 	for (int i = 0; i < 600; i++) {
 		Ring ring = ring_new((size_t)i % 24 + 3);
 		for (size_t j = 0; j < ring.n; j++) {
 			ring.x[j] = random_int(-most, most);
 			ring.y[j] = random_int(-most, most);
+			copies[j] = random_int(1, 2);
 		}
 		ring_pack(api, &ring);
-		Ring more = with_repeats(api, &ring);
-		expect_same_results(api, &ring, &more, "repeated vertices");
+		Ring more = with_copies(api, &ring, copies, i % 2);
+		expect_same_results(api, &ring, &more, FROM_VERTICES, FROM_MONOMIALS, "repeated vertices");
 		ring_free(&ring);
+		ring_free(&more);
+	}
+	check_end();
+}
+
+/* Any coordinates: as many copies as there are lanes leave every other edge in its lane and in its
+ * place, and each adds 0. (The vertex form has no edges to repeat.) */
+static void test_repeated_by_lanes(const Api *api, const char *target)
+{
+	const int lanes = api->bits == 24 ? 16 : 8;
+	int copies[LARGEST];
+	check_begin("vertices repeated by lanes, %s, %s", api->name, target);
+	for (int i = 0; i < CASES; i++) {
+		const Ring *ring = &cases_of(api)[i].ring;
+		if (ring->n < 3)
+			continue;
+		for (size_t j = 0; j < ring->n; j++)
+			copies[j] = random_int(0, 4) ? 1 : 1 + lanes;
+		Ring more = with_copies(api, ring, copies, false);
+		expect_same_results(api, ring, &more, FROM_EDGES, RESULTS, cases_of(api)[i].kind);
+		expect_same_central(api, ring, &more);
 		ring_free(&more);
 	}
 	check_end();
@@ -425,19 +471,17 @@ static void test_repeated(const Api *api, const char *target)
  * changes. Only a ring of two is 0 by decree and not once it counts three vertices. */
 static void test_closed(const Api *api, const char *target)
 {
-	double a[MOMENTS], b[MOMENTS], ca[2], cb[2];
+	int once[LARGEST];
+	for (int i = 0; i < LARGEST; i++)
+		once[i] = 1;
 	check_begin("explicitly closed, %s, %s", api->name, target);
 	for (int i = 0; i < CASES; i++) {
 		const Ring *ring = &cases_of(api)[i].ring;
 		if (ring->n == 0 || ring->n == 2)
 			continue;
-		Ring closed = ring_closed(api, ring);
-		expect_same_results(api, ring, &closed, cases_of(api)[i].kind);
-		const int before = api->central(EW_MAX_DEGREE, ring->px, ring->py, ring->n, ca, a);
-		const int after = api->central(EW_MAX_DEGREE, closed.px, closed.py, closed.n, cb, b);
-		expect(before == after, "central moments return %d, before %d", after, before);
-		if (before == EW_OK)
-			expect_same(api, a, b, MOMENTS, "central", ring->n);
+		Ring closed = with_copies(api, ring, once, true);
+		expect_same_results(api, ring, &closed, FROM_VERTICES, RESULTS, cases_of(api)[i].kind);
+		expect_same_central(api, ring, &closed);
 		ring_free(&closed);
 	}
 	check_end();
@@ -446,10 +490,12 @@ static void test_closed(const Api *api, const char *target)
 static void expect_nothing(const Api *api, const Ring *ring, const char *what)
 {
 	double out[RESULTS], typed[MOMENTS], c[2] = { 0, 0 };
-	const int count = all_results(api, ring, out);
-	for (int i = 0; i < count - 2; i++)
-		expect(out[i] == 0, "%s, n = %zu: result %d is %a", what, ring->n, i, out[i]);
-	expect(isnan(out[count - 2]) && isnan(out[count - 1]), "%s: centroid is no NaN", what);
+	all_results(api, ring, out);
+	for (int i = 0; i < RESULTS; i++) {
+		const bool is_centroid = i == FROM_EDGES || i == FROM_EDGES + 1;
+		expect(is_centroid ? isnan(out[i]) : out[i] == 0, "%s, n = %zu: result %d is %a", what,
+			ring->n, i, out[i]);
+	}
 	expect(api->centroid(ring->px, ring->py, ring->n, c) == EW_ZERO_AREA,
 		"%s: centroid exists, n = %zu", what, ring->n);
 	expect(api->central(2, ring->px, ring->py, ring->n, c, typed) == EW_ZERO_AREA,
@@ -539,6 +585,7 @@ int main(int argc, char **argv)
 	for_each_target(test_about);
 	for_each_target(test_holes);
 	for_each_target(test_repeated);
+	for_each_target(test_repeated_by_lanes);
 	for_each_target(test_closed);
 	for_each_target(test_nothing);
 	for_each_target(test_extremes);

@@ -79,17 +79,27 @@ static const Api apis[APIS] = {
 	RING_API(double, , 53, 0x1p-1074), RING_API(float, f, 24, 0x1p-149)
 };
 
+/* Element i of an array of the precision, whatever type it was declared with. */
 static inline double get(const Api *api, const void *p, int i)
 {
-	return api->bits == 24 ? (double)((const float *)p)[i] : ((const double *)p)[i];
+	float f;
+	double d;
+	if (api->bits == 24) {
+		memcpy(&f, (const char *)p + (size_t)i * sizeof f, sizeof f);
+		return (double)f;
+	}
+	memcpy(&d, (const char *)p + (size_t)i * sizeof d, sizeof d);
+	return d;
 }
 
 static inline void put(const Api *api, void *p, size_t i, double v)
 {
-	if (api->bits == 24)
-		((float *)p)[i] = (float)v;
-	else
-		((double *)p)[i] = v;
+	if (api->bits == 24) {
+		const float f = (float)v;
+		memcpy((char *)p + i * sizeof f, &f, sizeof f);
+	} else {
+		memcpy((char *)p + i * sizeof v, &v, sizeof v);
+	}
 }
 
 /* The rows of the ring list and the bounds they promise. */
@@ -195,18 +205,6 @@ static inline void ring_snap(Ring *ring, double step)
 		ring->x[i] = step * rint(ring->x[i] / step);
 		ring->y[i] = step * rint(ring->y[i] / step);
 	}
-}
-
-/* The ring with its first vertex repeated at the end. */
-static inline Ring ring_closed(const Api *api, const Ring *ring)
-{
-	Ring closed = ring_new(ring->n + 1);
-	for (size_t i = 0; i <= ring->n; i++) {
-		closed.x[i] = ring->x[i < ring->n ? i : 0];
-		closed.y[i] = ring->y[i < ring->n ? i : 0];
-	}
-	ring_pack(api, &closed);
-	return closed;
 }
 
 /* Runs a test for every precision under every target of this machine. */

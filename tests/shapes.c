@@ -286,11 +286,15 @@ static void check_centroid(const Shape *shape, const Exact *exact, const double 
 }
 
 /* Raw moments: |m' - m| <= gamma(k) W with k = 15 (kernel) + ceil(n/8) - 1 (8 lanes of the longest
- * ring, n vertices) + 3 (their reduction) + the number of rings (their sum).
- * Second moments come from a second pass, about c'. A vertex minus c' is rounded once, a factor 1 +
- * e with |e| <= u, and a term holds four of those: gamma(k + 4) W, W about c'. The moments about c'
- * instead of c are larger by m00 (c' - c)(c' - c), at most |m00| d d with d the bound of the
- * centroid. Nothing underflows: coordinates are 0 or far above 1e-30 km. */
+ * ring, n vertices) + 3 (their reduction) + the number of rings (their sum). 15 is for m11, the
+ * worst: 9 for 2 (x0 + x1)(y0 + y1) - (x0 y1 + x1 y0), whose last rounding is relative to its small
+ * value, 2 for the cross product, 1 for their product, 2 for the rounded 1/24, 1 to spare for terms
+ * in u^2. The kernel list counts that cancellation term by term and promises less there, k = 31.
+ *
+ * Second moments come from a second pass, about c'. A vertex minus c' is rounded once, a factor
+ * 1 + e with |e| <= u, and a term holds four of those: gamma(k + 4) W, W about c'. The moments
+ * about c' instead of c are larger by m00 (c' - c)(c' - c), at most |m00| d d with d the bound of
+ * the centroid. Nothing underflows: coordinates are 0 or far above 1e-30 km. */
 static void check_moments(const Shape *shape, const Exact *exact)
 {
 	double k = 15 + ceil((double)shape->longest / 8) - 1 + 3 + (double)shape->rings;
