@@ -282,7 +282,7 @@ void dag_dump(Text *text, const Dag *dag)
 			continue;
 		text_add(text, "  %%%d = %s", i, op_name(node->op));
 		if (node->op == OP_INPUT)
-			text_add(text, " %s", poly_text(poly_mono(rat(1, 1), node->input)));
+			text_add(text, " %s", poly_text(poly_mono(rat(1, 1), node->input), " "));
 		else if (node->op == OP_CONST)
 			text_add(text, " %s", rat_text(node->value));
 		for (int k = 0; k < op_operands(node->op); ++k)

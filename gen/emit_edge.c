@@ -83,13 +83,13 @@ void emit_edge(Text *text, const Edge *edge, const Precision *precision)
 	const Program *program = &edge->program;
 	const char *real = precision->real;
 	Mark mark = arena_mark();
-	text_add(text, "\n/* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of %s:\n *\n", edge->what->source);
+	text_add(text, "\n/* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of %s:\n *\n", edge->what->formula);
 	add_formula(text, edge, " * ");
 	text_add(text, " *\n * Sum it over a closed boundary; counterclockwise is positive.");
 	if (edge->what->m >= 0)
 		text_add(text, " Unit: coordinate^%d.", edge->what->m + edge->what->n + 2);
-	text_add(text, "\n * Error: at most gamma_%d times the same sum with every term positive, gamma_k = k u/(1 - k u), "
-		"u = %s.\n", edge->bound.k, precision->unit);
+	text_add(text, "\n * Error: at most gamma_%d times the same sum with every term positive; gamma_k = k u/(1 - k u),\n"
+		" * u = %s.\n", edge->bound.k, precision->unit);
 	text_add(text, " * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.\n");
 	text_add(text, " * Cost: %d mul, %d add; depth %d. */\n", program->cost.fma, program->cost.add, program->depth);
 	text_add(text, "%s ew_line_%s%s(%s x0, %s y0, %s x1, %s y1)\n{\n", real, edge->what->name, precision->suffix,
@@ -119,7 +119,7 @@ void emit_edges(Files *files, const Request *request, const Kernels *kernels)
 
 static void show_text(Text *text, const Edge *edge)
 {
-	text_add(text, "integral of %s, contribution of the line edge (x0,y0) -> (x1,y1):\n\n", edge->what->source);
+	text_add(text, "integral of %s, contribution of the line edge (x0,y0) -> (x1,y1):\n\n", edge->what->formula);
 	add_formula(text, edge, "");
 }
 

@@ -24,8 +24,8 @@ static void add_environment(Text *text, const Request *request)
 {
 	text_add(text, "\n#if defined(__FAST_MATH__) && !defined(EW_ALLOW_FAST_MATH)\n"
 		"#error \"-ffast-math breaks the error bounds; define EW_ALLOW_FAST_MATH to accept that\"\n#endif\n\n"
-		"/* a * b + c must not become one operation behind our back: it would break x0 y1 - x1 y0 == 0 on a repeated\n"
-		" * vertex, and equal bits on all machines. */\n"
+		"/* a * b + c must not become one operation behind our back: it would break x0 y1 - x1 y0 == 0 on a\n"
+		" * repeated vertex, and equal bits on all machines. */\n"
 		"#if defined(__clang__)\n#pragma clang fp contract(off)\n"
 		"#elif defined(__GNUC__) && !defined(__TINYC__)\n#pragma GCC optimize (\"fp-contract=off\")\n"
 		"#elif defined(_MSC_VER)\n#pragma fp_contract(off)\n#endif\n\n");
@@ -33,7 +33,7 @@ static void add_environment(Text *text, const Request *request)
 		text_add(text, "#define EW_BUILD_FMA 0\n");
 		return;
 	}
-	text_add(text, "/* Can this compiler build the fma kernels, and with which attribute? The CPU is asked at run time. */\n"
+	text_add(text, "/* Can this compiler build the fma kernels, and how? The CPU is asked at run time. */\n"
 		"#if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__)) && !defined(__TINYC__)\n"
 		"#define EW_BUILD_FMA 1\n#define EW_ATTRIBUTE_FMA __attribute__((target(\"fma\")))\n"
 		"#elif defined(__aarch64__) || defined(_M_ARM64) || defined(_M_X64) || defined(__FP_FAST_FMA)\n"
@@ -66,8 +66,8 @@ static int has_monomials(const Kernels *kernels)
 static void add_ids(Text *text, const Kernels *kernels)
 {
 	int accumulators = 1, outputs = 1;
-	text_add(text, "\n/* X(id, family, m, n, accumulators, outputs, k, r): all that runs over rings. For n items in L lanes\n"
-		" * |result - exact| <= gamma_K W with K = k + r (ceil(n/L) - 1) + log2 L. */\n#define EW_RINGS(X)");
+	text_add(text, "\n/* X(id, family, m, n, accumulators, outputs, k, r): all that runs over rings. For n items in\n"
+		" * L lanes |result - exact| <= gamma_K W with K = k + r (ceil(n/L) - 1) + log2 L. */\n#define EW_RINGS(X)");
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
 		text_add(text, " \\\n\tX(%s, %s, %d, %d, %d, %d, %d, %d)", ring_id(ring), ring->family, ring->m, ring->n,
@@ -79,7 +79,7 @@ static void add_ids(Text *text, const Kernels *kernels)
 	for (int i = 0; i < kernels->rings; ++i)
 		text_add(text, "\t%s,\n", ring_id(&kernels->ring[i]));
 	text_add(text, "\tEW_RING_COUNT,\n\tEW_MAX_ACCUMULATORS = %d,\n\tEW_MAX_OUTPUTS = %d\n};\n", accumulators, outputs);
-	text_add(text, "\n/* X(id, window, accumulators, outputs, finish): what the ring driver needs; window counts vertices */\n"
+	text_add(text, "\n/* X(id, window, accumulators, outputs, finish): for the ring driver; window counts vertices */\n"
 		"#define EW_RING_SHAPES(X)");
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
@@ -95,23 +95,37 @@ static void add_ids(Text *text, const Kernels *kernels)
 	text_add(text, "\n");
 }
 
+static const Ring *ring_of(const Kernels *kernels, const Edge *edge)
+{
+	for (int i = 0; i < kernels->rings; ++i)
+		if (strcmp(kernels->ring[i].name, edge->what->name) == 0)
+			return &kernels->ring[i];
+	bug("no ring kernel for %s", edge->what->name);
+}
+
 static void add_precision(Text *text, const Request *request, const Kernels *kernels, const Precision *precision)
 {
 	const char *real = upper(precision->real);
-	text_add(text, "\n/* X(function, id): integrals of polynomials, %s */\n#define EW_POLYNOMIALS_%s(X)", precision->real, real);
-	for (int i = 0; i < kernels->rings; ++i)
-		if (kernels->ring[i].m < 0)
-			text_add(text, " \\\n\tX(ew_%s%s, %s)", kernels->ring[i].name, precision->suffix,
-				ring_id(&kernels->ring[i]));
+	text_add(text, "\n/* X(function, id, edge, k): a polynomial over a ring, and over one edge with its k; %s */\n"
+		"#define EW_POLYNOMIALS_%s(X)", precision->real, real);
+	for (int i = 0; i < kernels->edges; ++i) {
+		const Edge *edge = &kernels->edge[i];
+		if (edge->what->m < 0)
+			text_add(text, " \\\n\tX(ew_%s%s, %s, ew_line_%s%s, %d)", edge->what->name, precision->suffix,
+				ring_id(ring_of(kernels, edge)), edge->what->name, precision->suffix, edge->bound.k);
+	}
 	text_add(text, "\n");
 	for (int t = 0; t < target_count; ++t) {
 		if (!(request->targets & targets[t].bit))
 			continue;
-		text_add(text, "\n/* X(id, kernel): %s, %s */\n#define EW_RINGS_%s_%s(X)", targets[t].name, precision->real,
+		text_add(text, "\n/* X(id, kernel, f, a): %s, %s; per item f on the FMA pipe, a additions */\n#define EW_RINGS_%s_%s(X)", targets[t].name, precision->real,
 			upper(targets[t].name), real);
-		for (int i = 0; i < kernels->rings; ++i)
-			text_add(text, " \\\n\tX(%s, ew_ring_%s%s_%s)", ring_id(&kernels->ring[i]), kernels->ring[i].name,
-				precision->suffix, targets[t].name);
+		for (int i = 0; i < kernels->rings; ++i) {
+			const Ring *ring = &kernels->ring[i];
+			Count cost = targets[t].fused ? ring->fused.cost : ring->portable.cost;
+			text_add(text, " \\\n\tX(%s, ew_ring_%s%s_%s, %d, %d)", ring_id(ring), ring->name,
+				precision->suffix, targets[t].name, cost.fma, cost.add);
+		}
 		text_add(text, "\n");
 	}
 }
@@ -119,8 +133,8 @@ static void add_precision(Text *text, const Request *request, const Kernels *ker
 static void add_types(Text *text, const Request *request)
 {
 	text_add(text, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n"
-		"/* `count` items; cx is the abscissa of the local origin (vertex form only); sum[accumulator * lanes + lane]\n"
-		" * is added to. Results: finish(sums over all lanes, out). */\n");
+		"/* `count` items; cx is the abscissa of the local origin (vertex form only); added to\n"
+		" * sum[accumulator * lanes + lane]. Results: finish(sums over all lanes, out). */\n");
 	for (int p = 0; p < precision_count; ++p) {
 		const char *real = precisions[p].real;
 		if (request->precisions & precisions[p].bit)
@@ -137,7 +151,7 @@ static void add_types(Text *text, const Request *request)
 				continue;
 			if (target->guard)
 				text_add(text, "#if %s\n", target->guard);
-			text_add(text, "#define EW_DECLARE(id, kernel) ew_run%s kernel;\nEW_RINGS_%s_%s(EW_DECLARE)\n"
+			text_add(text, "#define EW_DECLARE(id, kernel, f, a) ew_run%s kernel;\nEW_RINGS_%s_%s(EW_DECLARE)\n"
 				"#undef EW_DECLARE\n%s", precisions[p].suffix, upper(target->name),
 				upper(precisions[p].real), target->guard ? "#endif\n" : "");
 		}
@@ -186,7 +200,7 @@ static void add_edges(Text *text, const Kernels *kernels)
 	for (int i = 0; i < kernels->edges; ++i) {
 		const Edge *edge = &kernels->edge[i];
 		text_add(text, "%s\n  {\"function\": \"ew_line_%s\", \"integrand\": %s, \"k\": %d", i ? "," : "", edge->what->name,
-			quoted(edge->what->source), edge->bound.k);
+			quoted(edge->what->formula), edge->bound.k);
 		add_count(text, "portable", &edge->program);
 		text_add(text, "}");
 	}

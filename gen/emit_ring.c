@@ -21,7 +21,7 @@ static char *describe(const Ring *ring)
 static void add_signature(Text *text, const Ring *ring, const Target *target, const Precision *precision)
 {
 	const char *real = precision->real;
-	text_add(text, "void ew_ring_%s%s_%s(const %s *x, const %s *y, %s cx, size_t count,\n\t%s *sum)", ring->name,
+	text_add(text, "void ew_ring_%s%s_%s(\n\tconst %s *x, const %s *y, %s cx, size_t count, %s *sum)", ring->name,
 		precision->suffix, target->name, real, real, real, real);
 }
 

@@ -94,7 +94,7 @@ Poly poly_substitute(Poly a, const int *vars, const Poly *by, int count);
 int  poly_equal(Poly a, Poly b);
 int  poly_degree(Poly a, int var);
 Rat  poly_content(Poly a);                           /* c > 0 with a / c integer and coprime */
-char *poly_text(Poly a);
+char *poly_text(Poly a, const char *times);           /* times: " " in mathematics, "*" in the grammar of spec.c */
 
 /* ---- spec.c: what is asked for, and its grammar ------------------------------------------------------- */
 
@@ -102,7 +102,7 @@ typedef struct {
 	char *name;                                  /* x4y2, soft; part of every symbol */
 	int   m, n;                                  /* exponents of a monomial, or -1 -1 for a polynomial */
 	Poly  integrand;                             /* in VAR_X, VAR_Y */
-	char *source;                                /* the text it was read from */
+	char *formula;                               /* x^4 y^2, for comments */
 } Integrand;
 
 enum { PRECISION_DOUBLE = 1, PRECISION_FLOAT = 2 };
@@ -279,6 +279,8 @@ typedef struct {                                     /* how a program is written
 
 Text *file_new(Files *files, const char *name);
 void emit_banner(Text *text, const char *name, const char *purpose, const Request *request);
+void emit_wrapped(Text *text, const char *start, const char *margin, const char *words);
+void emit_statement(Text *text, int indent, const char *statement);   /* broken at operators if too wide */
 void emit_program(Text *text, const Program *program, const Style *style);
 
 void emit_edge(Text *text, const Edge *edge, const Precision *precision);        /* one ew_line_NAME with its comment */

@@ -19,7 +19,7 @@ static void dump_polynomials(const Dump *dump, const char *name, const Integral 
 	if (!wants(dump, 'p'))
 		return;
 	for (int j = 0; j < count; ++j)
-		text_add(dump->text, "%s: polynomial %d\n  %s\n", name, j, poly_text(want[j].value));
+		text_add(dump->text, "%s: polynomial %d\n  %s\n", name, j, poly_text(want[j].value, " "));
 }
 
 static void dump_dag(const Dump *dump, char letter, const char *name, const Dag *dag)
@@ -29,7 +29,7 @@ static void dump_dag(const Dump *dump, char letter, const char *name, const Dag 
 	text_add(dump->text, "%s: %s, scheme %s\n", name, letter == 'd' ? "dag" : "fused", dag->scheme);
 	dag_dump(dump->text, dag);
 	for (int j = 0; j < dag->finishes; ++j)
-		text_add(dump->text, "  finish %d = %s\n", j, poly_text(dag->finish[j]));
+		text_add(dump->text, "  finish %d = %s\n", j, poly_text(dag->finish[j], " "));
 }
 
 static Program scheduled(const Dump *dump, const char *name, const char *what, const Dag *dag,

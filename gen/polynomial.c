@@ -243,22 +243,22 @@ Rat poly_content(Poly a)
 	return rat(num ? num : 1, den);
 }
 
-static void mono_text(Text *text, Mono mono, int first)
+static void mono_text(Text *text, Mono mono, const char *times, int first)
 {
 	if (mono_accumulator_of(mono) >= 0) {
-		text_add(text, "%sa%d", first ? "" : " ", mono_accumulator_of(mono));
+		text_add(text, "%sa%d", first ? "" : times, mono_accumulator_of(mono));
 		first = 0;
 	}
 	for (int var = 0; var < VARS; ++var) {
 		int power = mono_power(mono, var);
 		if (!power)
 			continue;
-		text_add(text, power > 1 ? "%s%s^%d" : "%s%s", first ? "" : " ", var_name(var), power);
+		text_add(text, power > 1 ? "%s%s^%d" : "%s%s", first ? "" : times, var_name(var), power);
 		first = 0;
 	}
 }
 
-char *poly_text(Poly a)
+char *poly_text(Poly a, const char *times)
 {
 	Text text = { 0 };
 	text_add(&text, a.count ? "" : "0");
@@ -267,7 +267,7 @@ char *poly_text(Poly a)
 		const char *sign = coef.num < 0 ? (i ? " - " : "-") : (i ? " + " : "");
 		int unit = rat_is(rat_abs(coef), 1) && a.term[i].mono != 0;
 		text_add(&text, "%s%s", sign, unit ? "" : rat_text(rat_abs(coef)));
-		mono_text(&text, a.term[i].mono, unit);
+		mono_text(&text, a.term[i].mono, times, unit);
 	}
 	char *copy = copy_string(text.data, text.size);
 	text_free(&text);

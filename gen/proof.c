@@ -15,7 +15,7 @@
 static void disprove(const char *pass, int output, Poly have, Poly want)
 {
 	bug("the proof failed after %s: output %d\n  is        %s\n  should be %s", pass, output,
-		poly_text(have), poly_text(want));
+		poly_text(have, " "), poly_text(want, " "));
 }
 
 /* v_k of every output: its polynomial less accumulator k, of which no trace may remain. */

@@ -273,7 +273,7 @@ Integrand spec_polynomial(const char *text)
 		syntax_error(&reader, reader.at, "expected an operator or the end");
 	if (integrand.count == 0)
 		syntax_error(&reader, 0, "this polynomial is 0 everywhere");
-	return (Integrand){ name, -1, -1, integrand, poly_text(integrand) };
+	return (Integrand){ name, -1, -1, integrand, poly_text(integrand, " ") };
 }
 
 unsigned spec_list(const char *option, const char *text, const char *const *words, int count)
@@ -325,7 +325,8 @@ static const char *canonical_command(const Request *request)
 	for (int i = 0; i < request->monomials; ++i)
 		text_add(&text, " --monomial %s", request->monomial[i].name);
 	for (int i = 0; i < request->polynomials; ++i)
-		text_add(&text, " --polynomial %s='%s'", request->polynomial[i].name, request->polynomial[i].source);
+		text_add(&text, " --polynomial %s='%s'", request->polynomial[i].name,
+			poly_text(request->polynomial[i].integrand, "*"));
 	if (request->precisions != (PRECISION_DOUBLE | PRECISION_FLOAT))
 		text_add(&text, " --precision %s", request->precisions == PRECISION_FLOAT ? "float" : "double");
 	if (request->targets != (TARGET_PORTABLE | TARGET_FMA))

@@ -10,24 +10,34 @@
 
 #include <stddef.h>
 
-/* An integral over a region is a sum over its edges. Counterclockwise is positive, holes run clockwise and subtract,
- * a self-overlapping region is weighted by its winding number: add up what the rings of a region return.
+/* An integral over a region is a sum over its edges. Counterclockwise is positive, holes run
+ * clockwise and subtract, a self-overlapping region is weighted by its winding number: add up
+ * what the rings of a region return.
  *
- * A ring is n vertices (x[i], y[i]); the edge from the last to the first is implied, and a ring that repeats its first
- * vertex at the end is fine: a repeated vertex contributes exactly 0. n of 0, 1 or 2 gives 0. NaN or infinity in
- * gives NaN or infinity out. Inputs are never changed, nothing allocates, every function is reentrant.
- * Functions ending in f take and return float. u = 2^-53 (float: 2^-24), gamma_k = k u / (1 - k u).
+ * A ring is n vertices (x[i], y[i]); the edge from the last to the first is implied, and a ring
+ * that repeats its first vertex at the end is fine: a repeated vertex contributes exactly 0. n
+ * of 0, 1 or 2 gives 0. NaN or infinity in gives NaN or infinity out. Inputs are never changed,
+ * nothing allocates, every function is reentrant. Functions ending in f take and return float. u
+ * is 2^-53 (float: 2^-24) and gamma_k is k u / (1 - k u).
  *
- * Results have the same bits on every CPU and target with fused multiply-add; "portable" alone may differ. */
+ * Results have the same bits on every CPU and target with fused multiply-add; portable alone may
+ * differ. */
 
 #define EW_VERSION "0.1.0"
 #define EW_MAX_DEGREE 8
-#define EW_MOMENTS(degree) (((degree) + 1) * ((degree) + 2) / 2)        /* monomials of degree <= degree */
-#define EW_INDEX(m, n) (((m) + (n)) * ((m) + (n) + 1) / 2 + (n))        /* 1, x, y, x^2, x y, y^2, ... */
+#define EW_MOMENTS(degree) (((degree) + 1) * ((degree) + 2) / 2)  /* monomials to this degree */
+#define EW_INDEX(m, n) (((m) + (n)) * ((m) + (n) + 1) / 2 + (n))  /* 1, x, y, x^2, x y, ... */
 #define EW_HAS_DOUBLE 1
 #define EW_HAS_FLOAT 1
 
-enum { EW_PORTABLE = 1, EW_FMA = 2, EW_AVX2 = 4, EW_AVX512 = 8, EW_NEON = 16, EW_WASM128 = 32 };
+enum {
+	EW_PORTABLE = 1,
+	EW_FMA = 2,
+	EW_AVX2 = 4,
+	EW_AVX512 = 8,
+	EW_NEON = 16,
+	EW_WASM128 = 32
+};
 enum {
 	EW_OK = 0,
 	EW_BAD_DEGREE,
@@ -44,24 +54,30 @@ enum {
 extern "C" {
 #endif
 
-/* All moments M_mn = integral of x^m y^n over the region inside one ring, m + n <= degree, about (0,0).
- * out[EW_INDEX(m, n)] = M_mn, EW_MOMENTS(degree) values; unit: coordinate^(m+n+2). EW_BAD_DEGREE leaves out untouched.
- * Error: gamma_K times the same sum with every term positive, K = k + r (ceil(n/8) - 1) + 3 with k, r of the manifest
- * (float: 16 lanes, flushed to double every 1024 edges, so K does not grow with n). Far from the origin the
- * terms are large and cancel: use ew_moments_about or ew_central_moments there. Source: Green's theorem; Steger 1996. */
+/* All moments M_mn = integral of x^m y^n over the region inside one ring, m + n <= degree, about
+ * (0,0). out[EW_INDEX(m, n)] = M_mn, EW_MOMENTS(degree) values; unit: coordinate^(m+n+2).
+ * EW_BAD_DEGREE leaves out untouched. Error: gamma_K times the same sum with every term
+ * positive, K = k + r (ceil(n/8) - 1) + 3 with k, r of the manifest (float: 16 lanes, flushed to
+ * double every 1024 edges, so K does not grow with n). Far from the origin the terms are large
+ * and cancel: use ew_moments_about or ew_central_moments there. Source: Green's theorem; Steger
+ * 1996. */
 int ew_moments(int degree, const double *x, const double *y, size_t n, double *out);
 int ew_momentsf(int degree, const float *x, const float *y, size_t n, float *out);
 
-/* The same about (cx,cy): the integral of (x-cx)^m (y-cy)^n. Each vertex is moved first, rounded once. */
-int ew_moments_about(int degree, const double *x, const double *y, size_t n, double cx, double cy, double *out);
-int ew_moments_aboutf(int degree, const float *x, const float *y, size_t n, float cx, float cy, float *out);
+/* The same about (cx,cy): the integral of (x-cx)^m (y-cy)^n. Each vertex is moved first, rounded
+ * once. */
+int ew_moments_about(int degree, const double *x, const double *y, size_t n, double cx, double cy,
+	double *out);
+int ew_moments_aboutf(int degree, const float *x, const float *y, size_t n, float cx, float cy,
+	float *out);
 
 /* ew_moments of interleaved vertices: xy[2 i], xy[2 i + 1]. The same bits as ew_moments. */
 int ew_moments_xy(int degree, const double *xy, size_t n, double *out);
 int ew_moments_xyf(int degree, const float *xy, size_t n, float *out);
 
-/* Moments of the region moved by (dx,dy), from its moments: out_mn = sum C(m,i) C(n,j) dx^(m-i) dy^(n-j) in_ij.
- * in and out may be the same array. Error: gamma_(4 degree + 1) times that sum with every term positive. */
+/* Moments of the region moved by (dx,dy), from its moments: out_mn = sum C(m,i) C(n,j) dx^(m-i)
+ * dy^(n-j) in_ij. in and out may be the same array. Error: gamma_(4 degree + 1) times that sum
+ * with every term positive. */
 int ew_translate_moments(int degree, const double *in, double dx, double dy, double *out);
 int ew_translate_momentsf(int degree, const float *in, float dx, float dy, float *out);
 
@@ -69,24 +85,31 @@ int ew_translate_momentsf(int degree, const float *in, float dx, float dy, float
 double ew_moment(int m, int n_, const double *x, const double *y, size_t n);
 float ew_momentf(int m, int n_, const float *x, const float *y, size_t n);
 
-/* Area, about the first vertex: 1/2 sum (x_i - x_0)(y_(i+1) - y_(i-1)); counterclockwise is positive.
- * Error: gamma_(4 + ceil(n/8) + 2) sum 1/2 |x_i - x_0| |y_(i+1) - y_(i-1)|, wherever the ring lies. */
+/* Area, about the first vertex: 1/2 sum (x_i - x_0)(y_(i+1) - y_(i-1)); counterclockwise is
+ * positive. Error: gamma_(4 + ceil(n/8) + 2) sum 1/2 |x_i - x_0| |y_(i+1) - y_(i-1)|, wherever
+ * the ring lies. */
 double ew_area(const double *x, const double *y, size_t n);
 float ew_areaf(const float *x, const float *y, size_t n);
 
 /* Centroid, computed about the first vertex. If the area is 0: EW_ZERO_AREA, and c is NaN.
- * Error: |c - exact| <= (B + |c - v| A) / (|area| - A) + u |c|, A and B the bounds of area and first moment about vertex v. */
+ * Error: |c - exact| <= (B + |c - v| A) / (|area| - A) + u |c|, A and B the bounds of area and
+ * first moment about vertex v. */
 int ew_centroid(const double *x, const double *y, size_t n, double c[2]);
 int ew_centroidf(const float *x, const float *y, size_t n, float c[2]);
 
-/* Centroid and all moments about it; out[1] = out[2] = 0. Computed about the first vertex, then about the centroid,
- * so nothing cancels far from the origin. If the area is 0: EW_ZERO_AREA, c and out are NaN. */
-int ew_central_moments(int degree, const double *x, const double *y, size_t n, double c[2], double *out);
-int ew_central_momentsf(int degree, const float *x, const float *y, size_t n, float c[2], float *out);
+/* Centroid and all moments about it; out[1] = out[2] = 0. Computed about the first vertex, then
+ * about the centroid, so nothing cancels far from the origin. If the area is 0: EW_ZERO_AREA, c
+ * and out are NaN. */
+int ew_central_moments(int degree, const double *x, const double *y, size_t n, double c[2],
+	double *out);
+int ew_central_momentsf(int degree, const float *x, const float *y, size_t n, float c[2],
+	float *out);
 
-/* Contribution of one line edge (x0,y0) -> (x1,y1) to the integral of x^m y^n or of a polynomial: m! n!/(m+n+2)!
- * (x0 y1 - x1 y0) sum_pq C(p+q,q) C(m+n-p-q,n-q) x0^(m-p) x1^p y0^(n-q) y1^q. Swapping the ends negates it bit for
- * bit. The matrix, the error bound and the cost stand above each body. Source: Green's theorem; Steger 1996. */
+/* Contribution of one line edge (x0,y0) -> (x1,y1) to the integral of x^m y^n or of a
+ * polynomial: m! n!/(m+n+2)! (x0 y1 - x1 y0) sum_pq C(p+q,q) C(m+n-p-q,n-q) x0^(m-p) x1^p
+ * y0^(n-q) y1^q. Swapping the ends negates it bit for bit. NaN or infinity in gives NaN or
+ * infinity out. The matrix, the error bound and the cost stand above each body. Source: Green's
+ * theorem; Steger 1996. */
 double ew_line_x0y0(double x0, double y0, double x1, double y1);
 float ew_line_x0y0f(float x0, float y0, float x1, float y1);
 double ew_line_x1y0(double x0, double y0, double x1, double y1);
@@ -181,7 +204,8 @@ float ew_line_x0y8f(float x0, float y0, float x1, float y1);
 /* Bit set of the targets that this build has and this CPU runs. */
 unsigned ew_targets(void);
 
-/* Forces one target (one bit of ew_targets); 0 returns to the best. EW_UNSUPPORTED changes nothing. For the whole process. */
+/* Forces one target (one bit of ew_targets); 0 returns to the best. EW_UNSUPPORTED changes
+ * nothing. For the whole process. */
 int ew_use_target(unsigned target);
 
 /* "portable", "fma", ...; "unknown" if it is not one target. */

@@ -11,8 +11,8 @@
 
 /* area; scheme matrix.
  * Cost per item: 2 mul, 2 add; 1 accumulators, 4 values alive, depth 3. */
-void ew_ring_x0y0_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x0y0_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -33,8 +33,8 @@ void ew_ring_x0y0_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^1 y^0; scheme matrix.
  * Cost per item: 3 mul, 3 add; 1 accumulators, 5 values alive, depth 4. */
-void ew_ring_x1y0_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x1y0_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -57,8 +57,8 @@ void ew_ring_x1y0_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^0 y^1; scheme matrix.
  * Cost per item: 3 mul, 3 add; 1 accumulators, 5 values alive, depth 4. */
-void ew_ring_x0y1_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x0y1_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -81,8 +81,8 @@ void ew_ring_x0y1_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^2 y^0; scheme horner.
  * Cost per item: 5 mul, 4 add; 1 accumulators, 5 values alive, depth 5. */
-void ew_ring_x2y0_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x2y0_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -108,8 +108,8 @@ void ew_ring_x2y0_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^1 y^1; scheme matrix.
  * Cost per item: 7 mul, 5 add; 1 accumulators, 7 values alive, depth 6. */
-void ew_ring_x1y1_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x1y1_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -138,8 +138,8 @@ void ew_ring_x1y1_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^0 y^2; scheme horner.
  * Cost per item: 5 mul, 4 add; 1 accumulators, 5 values alive, depth 5. */
-void ew_ring_x0y2_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x0y2_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -165,8 +165,8 @@ void ew_ring_x0y2_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^3 y^0; scheme even-power.
  * Cost per item: 6 mul, 5 add; 1 accumulators, 5 values alive, depth 6. */
-void ew_ring_x3y0_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x3y0_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -194,8 +194,8 @@ void ew_ring_x3y0_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^2 y^1; scheme even-power.
  * Cost per item: 10 mul, 8 add; 1 accumulators, 8 values alive, depth 8. */
-void ew_ring_x2y1_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x2y1_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -230,8 +230,8 @@ void ew_ring_x2y1_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^1 y^2; scheme even-power.
  * Cost per item: 10 mul, 8 add; 1 accumulators, 8 values alive, depth 8. */
-void ew_ring_x1y2_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x1y2_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -266,8 +266,8 @@ void ew_ring_x1y2_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^0 y^3; scheme even-power.
  * Cost per item: 6 mul, 5 add; 1 accumulators, 5 values alive, depth 6. */
-void ew_ring_x0y3_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x0y3_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -295,8 +295,8 @@ void ew_ring_x0y3_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^4 y^0; scheme horner.
  * Cost per item: 9 mul, 6 add; 1 accumulators, 6 values alive, depth 9. */
-void ew_ring_x4y0_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x4y0_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -328,8 +328,8 @@ void ew_ring_x4y0_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^3 y^1; scheme even-power.
  * Cost per item: 10 mul, 9 add; 1 accumulators, 9 values alive, depth 8. */
-void ew_ring_x3y1_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x3y1_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -365,8 +365,8 @@ void ew_ring_x3y1_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^2 y^2; scheme even-power.
  * Cost per item: 15 mul, 10 add; 1 accumulators, 10 values alive, depth 9. */
-void ew_ring_x2y2_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x2y2_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -408,8 +408,8 @@ void ew_ring_x2y2_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^1 y^3; scheme even-power.
  * Cost per item: 10 mul, 9 add; 1 accumulators, 9 values alive, depth 8. */
-void ew_ring_x1y3_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x1y3_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -445,8 +445,8 @@ void ew_ring_x1y3_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^0 y^4; scheme horner.
  * Cost per item: 9 mul, 6 add; 1 accumulators, 6 values alive, depth 9. */
-void ew_ring_x0y4_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x0y4_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -478,8 +478,8 @@ void ew_ring_x0y4_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^5 y^0; scheme horner.
  * Cost per item: 11 mul, 7 add; 1 accumulators, 6 values alive, depth 11. */
-void ew_ring_x5y0_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x5y0_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -514,8 +514,8 @@ void ew_ring_x5y0_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^4 y^1; scheme even-power.
  * Cost per item: 16 mul, 10 add; 1 accumulators, 9 values alive, depth 10. */
-void ew_ring_x4y1_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x4y1_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -558,8 +558,8 @@ void ew_ring_x4y1_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^3 y^2; scheme even-power.
  * Cost per item: 18 mul, 11 add; 1 accumulators, 11 values alive, depth 9. */
-void ew_ring_x3y2_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x3y2_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -605,8 +605,8 @@ void ew_ring_x3y2_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^2 y^3; scheme even-power.
  * Cost per item: 18 mul, 11 add; 1 accumulators, 11 values alive, depth 9. */
-void ew_ring_x2y3_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x2y3_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -652,8 +652,8 @@ void ew_ring_x2y3_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^1 y^4; scheme even-power.
  * Cost per item: 16 mul, 10 add; 1 accumulators, 9 values alive, depth 10. */
-void ew_ring_x1y4_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x1y4_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -696,8 +696,8 @@ void ew_ring_x1y4_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^0 y^5; scheme horner.
  * Cost per item: 11 mul, 7 add; 1 accumulators, 6 values alive, depth 11. */
-void ew_ring_x0y5_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x0y5_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -732,8 +732,8 @@ void ew_ring_x0y5_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^6 y^0; scheme horner.
  * Cost per item: 13 mul, 8 add; 1 accumulators, 6 values alive, depth 13. */
-void ew_ring_x6y0_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x6y0_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -771,8 +771,8 @@ void ew_ring_x6y0_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^5 y^1; scheme even-power.
  * Cost per item: 17 mul, 11 add; 1 accumulators, 10 values alive, depth 10. */
-void ew_ring_x5y1_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x5y1_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -817,8 +817,8 @@ void ew_ring_x5y1_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^4 y^2; scheme even-power.
  * Cost per item: 23 mul, 13 add; 1 accumulators, 12 values alive, depth 11. */
-void ew_ring_x4y2_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x4y2_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -871,8 +871,8 @@ void ew_ring_x4y2_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^3 y^3; scheme even-power.
  * Cost per item: 25 mul, 13 add; 1 accumulators, 12 values alive, depth 10. */
-void ew_ring_x3y3_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x3y3_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -927,8 +927,8 @@ void ew_ring_x3y3_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^2 y^4; scheme even-power.
  * Cost per item: 23 mul, 13 add; 1 accumulators, 12 values alive, depth 11. */
-void ew_ring_x2y4_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x2y4_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -981,8 +981,8 @@ void ew_ring_x2y4_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^1 y^5; scheme even-power.
  * Cost per item: 17 mul, 11 add; 1 accumulators, 10 values alive, depth 10. */
-void ew_ring_x1y5_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x1y5_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1027,8 +1027,8 @@ void ew_ring_x1y5_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^0 y^6; scheme horner.
  * Cost per item: 13 mul, 8 add; 1 accumulators, 6 values alive, depth 13. */
-void ew_ring_x0y6_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x0y6_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1066,8 +1066,8 @@ void ew_ring_x0y6_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^7 y^0; scheme horner.
  * Cost per item: 15 mul, 9 add; 1 accumulators, 6 values alive, depth 15. */
-void ew_ring_x7y0_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x7y0_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1108,8 +1108,8 @@ void ew_ring_x7y0_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^6 y^1; scheme even-power.
  * Cost per item: 24 mul, 12 add; 1 accumulators, 11 values alive, depth 12. */
-void ew_ring_x6y1_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x6y1_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1162,8 +1162,8 @@ void ew_ring_x6y1_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^5 y^2; scheme even-power.
  * Cost per item: 25 mul, 14 add; 1 accumulators, 12 values alive, depth 11. */
-void ew_ring_x5y2_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x5y2_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1219,8 +1219,8 @@ void ew_ring_x5y2_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^4 y^3; scheme even-power.
  * Cost per item: 30 mul, 15 add; 1 accumulators, 12 values alive, depth 12. */
-void ew_ring_x4y3_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x4y3_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1282,8 +1282,8 @@ void ew_ring_x4y3_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^3 y^4; scheme even-power.
  * Cost per item: 30 mul, 15 add; 1 accumulators, 13 values alive, depth 12. */
-void ew_ring_x3y4_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x3y4_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1345,8 +1345,8 @@ void ew_ring_x3y4_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^2 y^5; scheme even-power.
  * Cost per item: 25 mul, 14 add; 1 accumulators, 12 values alive, depth 11. */
-void ew_ring_x2y5_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x2y5_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1402,8 +1402,8 @@ void ew_ring_x2y5_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^1 y^6; scheme even-power.
  * Cost per item: 24 mul, 12 add; 1 accumulators, 11 values alive, depth 12. */
-void ew_ring_x1y6_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x1y6_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1456,8 +1456,8 @@ void ew_ring_x1y6_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^0 y^7; scheme horner.
  * Cost per item: 15 mul, 9 add; 1 accumulators, 6 values alive, depth 15. */
-void ew_ring_x0y7_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x0y7_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1498,8 +1498,8 @@ void ew_ring_x0y7_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^8 y^0; scheme horner.
  * Cost per item: 17 mul, 10 add; 1 accumulators, 6 values alive, depth 17. */
-void ew_ring_x8y0_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x8y0_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1543,8 +1543,8 @@ void ew_ring_x8y0_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^7 y^1; scheme even-power.
  * Cost per item: 22 mul, 13 add; 1 accumulators, 12 values alive, depth 12. */
-void ew_ring_x7y1_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x7y1_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1596,8 +1596,8 @@ void ew_ring_x7y1_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^6 y^2; scheme even-power.
  * Cost per item: 31 mul, 16 add; 1 accumulators, 14 values alive, depth 13. */
-void ew_ring_x6y2_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x6y2_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1661,8 +1661,8 @@ void ew_ring_x6y2_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^5 y^3; scheme even-power.
  * Cost per item: 31 mul, 17 add; 1 accumulators, 14 values alive, depth 12. */
-void ew_ring_x5y3_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x5y3_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1727,8 +1727,8 @@ void ew_ring_x5y3_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^4 y^4; scheme even-power.
  * Cost per item: 35 mul, 18 add; 1 accumulators, 14 values alive, depth 13. */
-void ew_ring_x4y4_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x4y4_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1798,8 +1798,8 @@ void ew_ring_x4y4_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^3 y^5; scheme even-power.
  * Cost per item: 31 mul, 17 add; 1 accumulators, 13 values alive, depth 12. */
-void ew_ring_x3y5_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x3y5_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1864,8 +1864,8 @@ void ew_ring_x3y5_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^2 y^6; scheme even-power.
  * Cost per item: 31 mul, 16 add; 1 accumulators, 14 values alive, depth 13. */
-void ew_ring_x2y6_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x2y6_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1929,8 +1929,8 @@ void ew_ring_x2y6_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^1 y^7; scheme even-power.
  * Cost per item: 22 mul, 13 add; 1 accumulators, 12 values alive, depth 12. */
-void ew_ring_x1y7_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x1y7_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
@@ -1982,8 +1982,8 @@ void ew_ring_x1y7_portable(const double *x, const double *y, double cx, size_t c
 
 /* integral of x^0 y^8; scheme horner.
  * Cost per item: 17 mul, 10 add; 1 accumulators, 6 values alive, depth 17. */
-void ew_ring_x0y8_portable(const double *x, const double *y, double cx, size_t count,
-	double *sum)
+void ew_ring_x0y8_portable(
+	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {

@@ -15,8 +15,8 @@
 
 /* area; scheme matrix.
  * Cost per item: 2 mul or fma, 2 add; 1 accumulators, 4 values alive, depth 3. */
-EW_ATTRIBUTE_FMA void ew_ring_x0y0f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x0y0f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -37,8 +37,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y0f_fma(const float *x, const float *y, float cx
 
 /* integral of x^1 y^0; scheme matrix.
  * Cost per item: 3 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 3. */
-EW_ATTRIBUTE_FMA void ew_ring_x1y0f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x1y0f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -60,8 +60,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y0f_fma(const float *x, const float *y, float cx
 
 /* integral of x^0 y^1; scheme matrix.
  * Cost per item: 3 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 3. */
-EW_ATTRIBUTE_FMA void ew_ring_x0y1f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x0y1f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -83,8 +83,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y1f_fma(const float *x, const float *y, float cx
 
 /* integral of x^2 y^0; scheme horner.
  * Cost per item: 5 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 4. */
-EW_ATTRIBUTE_FMA void ew_ring_x2y0f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x2y0f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -108,8 +108,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y0f_fma(const float *x, const float *y, float cx
 
 /* integral of x^1 y^1; scheme matrix.
  * Cost per item: 7 mul or fma, 1 add; 1 accumulators, 7 values alive, depth 4. */
-EW_ATTRIBUTE_FMA void ew_ring_x1y1f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x1y1f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -134,8 +134,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y1f_fma(const float *x, const float *y, float cx
 
 /* integral of x^0 y^2; scheme horner.
  * Cost per item: 5 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 4. */
-EW_ATTRIBUTE_FMA void ew_ring_x0y2f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x0y2f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -159,8 +159,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y2f_fma(const float *x, const float *y, float cx
 
 /* integral of x^3 y^0; scheme even-power.
  * Cost per item: 6 mul or fma, 3 add; 1 accumulators, 5 values alive, depth 5. */
-EW_ATTRIBUTE_FMA void ew_ring_x3y0f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x3y0f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -186,8 +186,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y0f_fma(const float *x, const float *y, float cx
 
 /* integral of x^2 y^1; scheme even-power.
  * Cost per item: 10 mul or fma, 5 add; 1 accumulators, 7 values alive, depth 7. */
-EW_ATTRIBUTE_FMA void ew_ring_x2y1f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x2y1f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -219,8 +219,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y1f_fma(const float *x, const float *y, float cx
 
 /* integral of x^1 y^2; scheme even-power.
  * Cost per item: 10 mul or fma, 5 add; 1 accumulators, 7 values alive, depth 7. */
-EW_ATTRIBUTE_FMA void ew_ring_x1y2f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x1y2f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -252,8 +252,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y2f_fma(const float *x, const float *y, float cx
 
 /* integral of x^0 y^3; scheme even-power.
  * Cost per item: 6 mul or fma, 3 add; 1 accumulators, 5 values alive, depth 5. */
-EW_ATTRIBUTE_FMA void ew_ring_x0y3f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x0y3f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -279,8 +279,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y3f_fma(const float *x, const float *y, float cx
 
 /* integral of x^4 y^0; scheme horner.
  * Cost per item: 9 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 6. */
-EW_ATTRIBUTE_FMA void ew_ring_x4y0f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x4y0f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -308,8 +308,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y0f_fma(const float *x, const float *y, float cx
 
 /* integral of x^3 y^1; scheme even-power.
  * Cost per item: 10 mul or fma, 6 add; 1 accumulators, 9 values alive, depth 6. */
-EW_ATTRIBUTE_FMA void ew_ring_x3y1f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x3y1f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -342,8 +342,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y1f_fma(const float *x, const float *y, float cx
 
 /* integral of x^2 y^2; scheme even-power.
  * Cost per item: 15 mul or fma, 5 add; 1 accumulators, 10 values alive, depth 7. */
-EW_ATTRIBUTE_FMA void ew_ring_x2y2f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x2y2f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -380,8 +380,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y2f_fma(const float *x, const float *y, float cx
 
 /* integral of x^1 y^3; scheme even-power.
  * Cost per item: 10 mul or fma, 6 add; 1 accumulators, 9 values alive, depth 6. */
-EW_ATTRIBUTE_FMA void ew_ring_x1y3f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x1y3f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -414,8 +414,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y3f_fma(const float *x, const float *y, float cx
 
 /* integral of x^0 y^4; scheme horner.
  * Cost per item: 9 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 6. */
-EW_ATTRIBUTE_FMA void ew_ring_x0y4f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x0y4f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -443,8 +443,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y4f_fma(const float *x, const float *y, float cx
 
 /* integral of x^5 y^0; scheme horner.
  * Cost per item: 11 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 7. */
-EW_ATTRIBUTE_FMA void ew_ring_x5y0f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x5y0f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -474,8 +474,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y0f_fma(const float *x, const float *y, float cx
 
 /* integral of x^4 y^1; scheme even-power.
  * Cost per item: 16 mul or fma, 5 add; 1 accumulators, 9 values alive, depth 8. */
-EW_ATTRIBUTE_FMA void ew_ring_x4y1f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x4y1f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -513,8 +513,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y1f_fma(const float *x, const float *y, float cx
 
 /* integral of x^3 y^2; scheme even-power.
  * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 11 values alive, depth 7. */
-EW_ATTRIBUTE_FMA void ew_ring_x3y2f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x3y2f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -555,8 +555,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y2f_fma(const float *x, const float *y, float cx
 
 /* integral of x^2 y^3; scheme even-power.
  * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 7. */
-EW_ATTRIBUTE_FMA void ew_ring_x2y3f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x2y3f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -597,8 +597,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y3f_fma(const float *x, const float *y, float cx
 
 /* integral of x^1 y^4; scheme even-power.
  * Cost per item: 16 mul or fma, 5 add; 1 accumulators, 9 values alive, depth 8. */
-EW_ATTRIBUTE_FMA void ew_ring_x1y4f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x1y4f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -636,8 +636,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y4f_fma(const float *x, const float *y, float cx
 
 /* integral of x^0 y^5; scheme horner.
  * Cost per item: 11 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 7. */
-EW_ATTRIBUTE_FMA void ew_ring_x0y5f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x0y5f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -667,8 +667,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y5f_fma(const float *x, const float *y, float cx
 
 /* integral of x^6 y^0; scheme horner.
  * Cost per item: 13 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 8. */
-EW_ATTRIBUTE_FMA void ew_ring_x6y0f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x6y0f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -700,8 +700,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y0f_fma(const float *x, const float *y, float cx
 
 /* integral of x^5 y^1; scheme even-power.
  * Cost per item: 17 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 8. */
-EW_ATTRIBUTE_FMA void ew_ring_x5y1f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x5y1f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -741,8 +741,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y1f_fma(const float *x, const float *y, float cx
 
 /* integral of x^4 y^2; scheme even-power.
  * Cost per item: 23 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
-EW_ATTRIBUTE_FMA void ew_ring_x4y2f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x4y2f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -787,8 +787,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y2f_fma(const float *x, const float *y, float cx
 
 /* integral of x^3 y^3; scheme even-power.
  * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
-EW_ATTRIBUTE_FMA void ew_ring_x3y3f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x3y3f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -835,8 +835,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y3f_fma(const float *x, const float *y, float cx
 
 /* integral of x^2 y^4; scheme even-power.
  * Cost per item: 23 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
-EW_ATTRIBUTE_FMA void ew_ring_x2y4f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x2y4f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -881,8 +881,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y4f_fma(const float *x, const float *y, float cx
 
 /* integral of x^1 y^5; scheme even-power.
  * Cost per item: 17 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 8. */
-EW_ATTRIBUTE_FMA void ew_ring_x1y5f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x1y5f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -922,8 +922,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y5f_fma(const float *x, const float *y, float cx
 
 /* integral of x^0 y^6; scheme horner.
  * Cost per item: 13 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 8. */
-EW_ATTRIBUTE_FMA void ew_ring_x0y6f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x0y6f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -955,8 +955,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y6f_fma(const float *x, const float *y, float cx
 
 /* integral of x^7 y^0; scheme horner.
  * Cost per item: 15 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 9. */
-EW_ATTRIBUTE_FMA void ew_ring_x7y0f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x7y0f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -990,8 +990,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y0f_fma(const float *x, const float *y, float cx
 
 /* integral of x^6 y^1; scheme even-power.
  * Cost per item: 24 mul or fma, 5 add; 1 accumulators, 11 values alive, depth 11. */
-EW_ATTRIBUTE_FMA void ew_ring_x6y1f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x6y1f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1037,8 +1037,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y1f_fma(const float *x, const float *y, float cx
 
 /* integral of x^5 y^2; scheme even-power.
  * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
-EW_ATTRIBUTE_FMA void ew_ring_x5y2f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x5y2f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1085,8 +1085,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y2f_fma(const float *x, const float *y, float cx
 
 /* integral of x^4 y^3; scheme even-power.
  * Cost per item: 30 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 10. */
-EW_ATTRIBUTE_FMA void ew_ring_x4y3f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x4y3f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1138,8 +1138,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y3f_fma(const float *x, const float *y, float cx
 
 /* integral of x^3 y^4; scheme even-power.
  * Cost per item: 30 mul or fma, 5 add; 1 accumulators, 13 values alive, depth 10. */
-EW_ATTRIBUTE_FMA void ew_ring_x3y4f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x3y4f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1191,8 +1191,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y4f_fma(const float *x, const float *y, float cx
 
 /* integral of x^2 y^5; scheme even-power.
  * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 11 values alive, depth 9. */
-EW_ATTRIBUTE_FMA void ew_ring_x2y5f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x2y5f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1239,8 +1239,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y5f_fma(const float *x, const float *y, float cx
 
 /* integral of x^1 y^6; scheme even-power.
  * Cost per item: 24 mul or fma, 5 add; 1 accumulators, 11 values alive, depth 11. */
-EW_ATTRIBUTE_FMA void ew_ring_x1y6f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x1y6f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1286,8 +1286,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y6f_fma(const float *x, const float *y, float cx
 
 /* integral of x^0 y^7; scheme horner.
  * Cost per item: 15 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 9. */
-EW_ATTRIBUTE_FMA void ew_ring_x0y7f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x0y7f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1321,8 +1321,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y7f_fma(const float *x, const float *y, float cx
 
 /* integral of x^8 y^0; scheme horner.
  * Cost per item: 17 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 10. */
-EW_ATTRIBUTE_FMA void ew_ring_x8y0f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x8y0f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1358,8 +1358,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x8y0f_fma(const float *x, const float *y, float cx
 
 /* integral of x^7 y^1; scheme even-power.
  * Cost per item: 22 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 10. */
-EW_ATTRIBUTE_FMA void ew_ring_x7y1f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x7y1f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1404,8 +1404,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y1f_fma(const float *x, const float *y, float cx
 
 /* integral of x^6 y^2; scheme even-power.
  * Cost per item: 31 mul or fma, 6 add; 1 accumulators, 14 values alive, depth 12. */
-EW_ATTRIBUTE_FMA void ew_ring_x6y2f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x6y2f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1459,8 +1459,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y2f_fma(const float *x, const float *y, float cx
 
 /* integral of x^5 y^3; scheme even-power.
  * Cost per item: 31 mul or fma, 7 add; 1 accumulators, 14 values alive, depth 10. */
-EW_ATTRIBUTE_FMA void ew_ring_x5y3f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x5y3f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1515,8 +1515,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y3f_fma(const float *x, const float *y, float cx
 
 /* integral of x^4 y^4; scheme even-power.
  * Cost per item: 35 mul or fma, 5 add; 1 accumulators, 13 values alive, depth 11. */
-EW_ATTRIBUTE_FMA void ew_ring_x4y4f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x4y4f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1573,8 +1573,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y4f_fma(const float *x, const float *y, float cx
 
 /* integral of x^3 y^5; scheme even-power.
  * Cost per item: 31 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 10. */
-EW_ATTRIBUTE_FMA void ew_ring_x3y5f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x3y5f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1629,8 +1629,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y5f_fma(const float *x, const float *y, float cx
 
 /* integral of x^2 y^6; scheme even-power.
  * Cost per item: 31 mul or fma, 6 add; 1 accumulators, 14 values alive, depth 12. */
-EW_ATTRIBUTE_FMA void ew_ring_x2y6f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x2y6f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1684,8 +1684,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y6f_fma(const float *x, const float *y, float cx
 
 /* integral of x^1 y^7; scheme even-power.
  * Cost per item: 22 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 10. */
-EW_ATTRIBUTE_FMA void ew_ring_x1y7f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x1y7f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1730,8 +1730,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y7f_fma(const float *x, const float *y, float cx
 
 /* integral of x^0 y^8; scheme horner.
  * Cost per item: 17 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 10. */
-EW_ATTRIBUTE_FMA void ew_ring_x0y8f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_x0y8f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {

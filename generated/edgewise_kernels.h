@@ -14,8 +14,8 @@
 #error "-ffast-math breaks the error bounds; define EW_ALLOW_FAST_MATH to accept that"
 #endif
 
-/* a * b + c must not become one operation behind our back: it would break x0 y1 - x1 y0 == 0 on a repeated
- * vertex, and equal bits on all machines. */
+/* a * b + c must not become one operation behind our back: it would break x0 y1 - x1 y0 == 0 on a
+ * repeated vertex, and equal bits on all machines. */
 #if defined(__clang__)
 #pragma clang fp contract(off)
 #elif defined(__GNUC__) && !defined(__TINYC__)
@@ -24,7 +24,7 @@
 #pragma fp_contract(off)
 #endif
 
-/* Can this compiler build the fma kernels, and with which attribute? The CPU is asked at run time. */
+/* Can this compiler build the fma kernels, and how? The CPU is asked at run time. */
 #if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__)) && !defined(__TINYC__)
 #define EW_BUILD_FMA 1
 #define EW_ATTRIBUTE_FMA __attribute__((target("fma")))
@@ -131,8 +131,8 @@
 	X(1, 7, ew_line_x1y7f, 21) \
 	X(0, 8, ew_line_x0y8f, 17)
 
-/* X(id, family, m, n, accumulators, outputs, k, r): all that runs over rings. For n items in L lanes
- * |result - exact| <= gamma_K W with K = k + r (ceil(n/L) - 1) + log2 L. */
+/* X(id, family, m, n, accumulators, outputs, k, r): all that runs over rings. For n items in
+ * L lanes |result - exact| <= gamma_K W with K = k + r (ceil(n/L) - 1) + log2 L. */
 #define EW_RINGS(X) \
 	X(EW_RING_MOMENTS_0, moments, 0, 0, 1, 1, 4, 1) \
 	X(EW_RING_MOMENTS_1, moments, 1, 0, 3, 3, 7, 1) \
@@ -249,7 +249,7 @@ enum {
 	EW_MAX_OUTPUTS = 45
 };
 
-/* X(id, window, accumulators, outputs, finish): what the ring driver needs; window counts vertices */
+/* X(id, window, accumulators, outputs, finish): for the ring driver; window counts vertices */
 #define EW_RING_SHAPES(X) \
 	X(EW_RING_MOMENTS_0, 3, 1, 1, ew_ring_moments_0_finish) \
 	X(EW_RING_MOMENTS_1, 2, 3, 3, ew_ring_moments_1_finish) \
@@ -355,246 +355,246 @@ enum {
 	X(1, 7, EW_RING_X1Y7) \
 	X(0, 8, EW_RING_X0Y8)
 
-/* X(function, id): integrals of polynomials, double */
+/* X(function, id, edge, k): a polynomial over a ring, and over one edge with its k; double */
 #define EW_POLYNOMIALS_DOUBLE(X)
 
-/* X(id, kernel): portable, double */
+/* X(id, kernel, f, a): portable, double; per item f on the FMA pipe, a additions */
 #define EW_RINGS_PORTABLE_DOUBLE(X) \
-	X(EW_RING_MOMENTS_0, ew_ring_moments_0_portable) \
-	X(EW_RING_MOMENTS_1, ew_ring_moments_1_portable) \
-	X(EW_RING_MOMENTS_2, ew_ring_moments_2_portable) \
-	X(EW_RING_MOMENTS_3, ew_ring_moments_3_portable) \
-	X(EW_RING_MOMENTS_4, ew_ring_moments_4_portable) \
-	X(EW_RING_MOMENTS_5, ew_ring_moments_5_portable) \
-	X(EW_RING_MOMENTS_6, ew_ring_moments_6_portable) \
-	X(EW_RING_MOMENTS_7, ew_ring_moments_7_portable) \
-	X(EW_RING_MOMENTS_8, ew_ring_moments_8_portable) \
-	X(EW_RING_X0Y0, ew_ring_x0y0_portable) \
-	X(EW_RING_X1Y0, ew_ring_x1y0_portable) \
-	X(EW_RING_X0Y1, ew_ring_x0y1_portable) \
-	X(EW_RING_X2Y0, ew_ring_x2y0_portable) \
-	X(EW_RING_X1Y1, ew_ring_x1y1_portable) \
-	X(EW_RING_X0Y2, ew_ring_x0y2_portable) \
-	X(EW_RING_X3Y0, ew_ring_x3y0_portable) \
-	X(EW_RING_X2Y1, ew_ring_x2y1_portable) \
-	X(EW_RING_X1Y2, ew_ring_x1y2_portable) \
-	X(EW_RING_X0Y3, ew_ring_x0y3_portable) \
-	X(EW_RING_X4Y0, ew_ring_x4y0_portable) \
-	X(EW_RING_X3Y1, ew_ring_x3y1_portable) \
-	X(EW_RING_X2Y2, ew_ring_x2y2_portable) \
-	X(EW_RING_X1Y3, ew_ring_x1y3_portable) \
-	X(EW_RING_X0Y4, ew_ring_x0y4_portable) \
-	X(EW_RING_X5Y0, ew_ring_x5y0_portable) \
-	X(EW_RING_X4Y1, ew_ring_x4y1_portable) \
-	X(EW_RING_X3Y2, ew_ring_x3y2_portable) \
-	X(EW_RING_X2Y3, ew_ring_x2y3_portable) \
-	X(EW_RING_X1Y4, ew_ring_x1y4_portable) \
-	X(EW_RING_X0Y5, ew_ring_x0y5_portable) \
-	X(EW_RING_X6Y0, ew_ring_x6y0_portable) \
-	X(EW_RING_X5Y1, ew_ring_x5y1_portable) \
-	X(EW_RING_X4Y2, ew_ring_x4y2_portable) \
-	X(EW_RING_X3Y3, ew_ring_x3y3_portable) \
-	X(EW_RING_X2Y4, ew_ring_x2y4_portable) \
-	X(EW_RING_X1Y5, ew_ring_x1y5_portable) \
-	X(EW_RING_X0Y6, ew_ring_x0y6_portable) \
-	X(EW_RING_X7Y0, ew_ring_x7y0_portable) \
-	X(EW_RING_X6Y1, ew_ring_x6y1_portable) \
-	X(EW_RING_X5Y2, ew_ring_x5y2_portable) \
-	X(EW_RING_X4Y3, ew_ring_x4y3_portable) \
-	X(EW_RING_X3Y4, ew_ring_x3y4_portable) \
-	X(EW_RING_X2Y5, ew_ring_x2y5_portable) \
-	X(EW_RING_X1Y6, ew_ring_x1y6_portable) \
-	X(EW_RING_X0Y7, ew_ring_x0y7_portable) \
-	X(EW_RING_X8Y0, ew_ring_x8y0_portable) \
-	X(EW_RING_X7Y1, ew_ring_x7y1_portable) \
-	X(EW_RING_X6Y2, ew_ring_x6y2_portable) \
-	X(EW_RING_X5Y3, ew_ring_x5y3_portable) \
-	X(EW_RING_X4Y4, ew_ring_x4y4_portable) \
-	X(EW_RING_X3Y5, ew_ring_x3y5_portable) \
-	X(EW_RING_X2Y6, ew_ring_x2y6_portable) \
-	X(EW_RING_X1Y7, ew_ring_x1y7_portable) \
-	X(EW_RING_X0Y8, ew_ring_x0y8_portable)
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0_portable, 1, 3) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1_portable, 4, 6) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2_portable, 12, 14) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3_portable, 18, 23) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4_portable, 33, 34) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5_portable, 58, 52) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6_portable, 81, 71) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7_portable, 108, 93) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8_portable, 139, 118) \
+	X(EW_RING_X0Y0, ew_ring_x0y0_portable, 2, 2) \
+	X(EW_RING_X1Y0, ew_ring_x1y0_portable, 3, 3) \
+	X(EW_RING_X0Y1, ew_ring_x0y1_portable, 3, 3) \
+	X(EW_RING_X2Y0, ew_ring_x2y0_portable, 5, 4) \
+	X(EW_RING_X1Y1, ew_ring_x1y1_portable, 7, 5) \
+	X(EW_RING_X0Y2, ew_ring_x0y2_portable, 5, 4) \
+	X(EW_RING_X3Y0, ew_ring_x3y0_portable, 6, 5) \
+	X(EW_RING_X2Y1, ew_ring_x2y1_portable, 10, 8) \
+	X(EW_RING_X1Y2, ew_ring_x1y2_portable, 10, 8) \
+	X(EW_RING_X0Y3, ew_ring_x0y3_portable, 6, 5) \
+	X(EW_RING_X4Y0, ew_ring_x4y0_portable, 9, 6) \
+	X(EW_RING_X3Y1, ew_ring_x3y1_portable, 10, 9) \
+	X(EW_RING_X2Y2, ew_ring_x2y2_portable, 15, 10) \
+	X(EW_RING_X1Y3, ew_ring_x1y3_portable, 10, 9) \
+	X(EW_RING_X0Y4, ew_ring_x0y4_portable, 9, 6) \
+	X(EW_RING_X5Y0, ew_ring_x5y0_portable, 11, 7) \
+	X(EW_RING_X4Y1, ew_ring_x4y1_portable, 16, 10) \
+	X(EW_RING_X3Y2, ew_ring_x3y2_portable, 18, 11) \
+	X(EW_RING_X2Y3, ew_ring_x2y3_portable, 18, 11) \
+	X(EW_RING_X1Y4, ew_ring_x1y4_portable, 16, 10) \
+	X(EW_RING_X0Y5, ew_ring_x0y5_portable, 11, 7) \
+	X(EW_RING_X6Y0, ew_ring_x6y0_portable, 13, 8) \
+	X(EW_RING_X5Y1, ew_ring_x5y1_portable, 17, 11) \
+	X(EW_RING_X4Y2, ew_ring_x4y2_portable, 23, 13) \
+	X(EW_RING_X3Y3, ew_ring_x3y3_portable, 25, 13) \
+	X(EW_RING_X2Y4, ew_ring_x2y4_portable, 23, 13) \
+	X(EW_RING_X1Y5, ew_ring_x1y5_portable, 17, 11) \
+	X(EW_RING_X0Y6, ew_ring_x0y6_portable, 13, 8) \
+	X(EW_RING_X7Y0, ew_ring_x7y0_portable, 15, 9) \
+	X(EW_RING_X6Y1, ew_ring_x6y1_portable, 24, 12) \
+	X(EW_RING_X5Y2, ew_ring_x5y2_portable, 25, 14) \
+	X(EW_RING_X4Y3, ew_ring_x4y3_portable, 30, 15) \
+	X(EW_RING_X3Y4, ew_ring_x3y4_portable, 30, 15) \
+	X(EW_RING_X2Y5, ew_ring_x2y5_portable, 25, 14) \
+	X(EW_RING_X1Y6, ew_ring_x1y6_portable, 24, 12) \
+	X(EW_RING_X0Y7, ew_ring_x0y7_portable, 15, 9) \
+	X(EW_RING_X8Y0, ew_ring_x8y0_portable, 17, 10) \
+	X(EW_RING_X7Y1, ew_ring_x7y1_portable, 22, 13) \
+	X(EW_RING_X6Y2, ew_ring_x6y2_portable, 31, 16) \
+	X(EW_RING_X5Y3, ew_ring_x5y3_portable, 31, 17) \
+	X(EW_RING_X4Y4, ew_ring_x4y4_portable, 35, 18) \
+	X(EW_RING_X3Y5, ew_ring_x3y5_portable, 31, 17) \
+	X(EW_RING_X2Y6, ew_ring_x2y6_portable, 31, 16) \
+	X(EW_RING_X1Y7, ew_ring_x1y7_portable, 22, 13) \
+	X(EW_RING_X0Y8, ew_ring_x0y8_portable, 17, 10)
 
-/* X(id, kernel): fma, double */
+/* X(id, kernel, f, a): fma, double; per item f on the FMA pipe, a additions */
 #define EW_RINGS_FMA_DOUBLE(X) \
-	X(EW_RING_MOMENTS_0, ew_ring_moments_0_fma) \
-	X(EW_RING_MOMENTS_1, ew_ring_moments_1_fma) \
-	X(EW_RING_MOMENTS_2, ew_ring_moments_2_fma) \
-	X(EW_RING_MOMENTS_3, ew_ring_moments_3_fma) \
-	X(EW_RING_MOMENTS_4, ew_ring_moments_4_fma) \
-	X(EW_RING_MOMENTS_5, ew_ring_moments_5_fma) \
-	X(EW_RING_MOMENTS_6, ew_ring_moments_6_fma) \
-	X(EW_RING_MOMENTS_7, ew_ring_moments_7_fma) \
-	X(EW_RING_MOMENTS_8, ew_ring_moments_8_fma) \
-	X(EW_RING_X0Y0, ew_ring_x0y0_fma) \
-	X(EW_RING_X1Y0, ew_ring_x1y0_fma) \
-	X(EW_RING_X0Y1, ew_ring_x0y1_fma) \
-	X(EW_RING_X2Y0, ew_ring_x2y0_fma) \
-	X(EW_RING_X1Y1, ew_ring_x1y1_fma) \
-	X(EW_RING_X0Y2, ew_ring_x0y2_fma) \
-	X(EW_RING_X3Y0, ew_ring_x3y0_fma) \
-	X(EW_RING_X2Y1, ew_ring_x2y1_fma) \
-	X(EW_RING_X1Y2, ew_ring_x1y2_fma) \
-	X(EW_RING_X0Y3, ew_ring_x0y3_fma) \
-	X(EW_RING_X4Y0, ew_ring_x4y0_fma) \
-	X(EW_RING_X3Y1, ew_ring_x3y1_fma) \
-	X(EW_RING_X2Y2, ew_ring_x2y2_fma) \
-	X(EW_RING_X1Y3, ew_ring_x1y3_fma) \
-	X(EW_RING_X0Y4, ew_ring_x0y4_fma) \
-	X(EW_RING_X5Y0, ew_ring_x5y0_fma) \
-	X(EW_RING_X4Y1, ew_ring_x4y1_fma) \
-	X(EW_RING_X3Y2, ew_ring_x3y2_fma) \
-	X(EW_RING_X2Y3, ew_ring_x2y3_fma) \
-	X(EW_RING_X1Y4, ew_ring_x1y4_fma) \
-	X(EW_RING_X0Y5, ew_ring_x0y5_fma) \
-	X(EW_RING_X6Y0, ew_ring_x6y0_fma) \
-	X(EW_RING_X5Y1, ew_ring_x5y1_fma) \
-	X(EW_RING_X4Y2, ew_ring_x4y2_fma) \
-	X(EW_RING_X3Y3, ew_ring_x3y3_fma) \
-	X(EW_RING_X2Y4, ew_ring_x2y4_fma) \
-	X(EW_RING_X1Y5, ew_ring_x1y5_fma) \
-	X(EW_RING_X0Y6, ew_ring_x0y6_fma) \
-	X(EW_RING_X7Y0, ew_ring_x7y0_fma) \
-	X(EW_RING_X6Y1, ew_ring_x6y1_fma) \
-	X(EW_RING_X5Y2, ew_ring_x5y2_fma) \
-	X(EW_RING_X4Y3, ew_ring_x4y3_fma) \
-	X(EW_RING_X3Y4, ew_ring_x3y4_fma) \
-	X(EW_RING_X2Y5, ew_ring_x2y5_fma) \
-	X(EW_RING_X1Y6, ew_ring_x1y6_fma) \
-	X(EW_RING_X0Y7, ew_ring_x0y7_fma) \
-	X(EW_RING_X8Y0, ew_ring_x8y0_fma) \
-	X(EW_RING_X7Y1, ew_ring_x7y1_fma) \
-	X(EW_RING_X6Y2, ew_ring_x6y2_fma) \
-	X(EW_RING_X5Y3, ew_ring_x5y3_fma) \
-	X(EW_RING_X4Y4, ew_ring_x4y4_fma) \
-	X(EW_RING_X3Y5, ew_ring_x3y5_fma) \
-	X(EW_RING_X2Y6, ew_ring_x2y6_fma) \
-	X(EW_RING_X1Y7, ew_ring_x1y7_fma) \
-	X(EW_RING_X0Y8, ew_ring_x0y8_fma)
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0_fma, 1, 2) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1_fma, 4, 4) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2_fma, 12, 6) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3_fma, 18, 14) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4_fma, 33, 12) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5_fma, 58, 16) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6_fma, 81, 22) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7_fma, 108, 29) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8_fma, 139, 37) \
+	X(EW_RING_X0Y0, ew_ring_x0y0_fma, 2, 2) \
+	X(EW_RING_X1Y0, ew_ring_x1y0_fma, 3, 2) \
+	X(EW_RING_X0Y1, ew_ring_x0y1_fma, 3, 2) \
+	X(EW_RING_X2Y0, ew_ring_x2y0_fma, 5, 2) \
+	X(EW_RING_X1Y1, ew_ring_x1y1_fma, 7, 1) \
+	X(EW_RING_X0Y2, ew_ring_x0y2_fma, 5, 2) \
+	X(EW_RING_X3Y0, ew_ring_x3y0_fma, 6, 3) \
+	X(EW_RING_X2Y1, ew_ring_x2y1_fma, 10, 5) \
+	X(EW_RING_X1Y2, ew_ring_x1y2_fma, 10, 5) \
+	X(EW_RING_X0Y3, ew_ring_x0y3_fma, 6, 3) \
+	X(EW_RING_X4Y0, ew_ring_x4y0_fma, 9, 2) \
+	X(EW_RING_X3Y1, ew_ring_x3y1_fma, 10, 6) \
+	X(EW_RING_X2Y2, ew_ring_x2y2_fma, 15, 5) \
+	X(EW_RING_X1Y3, ew_ring_x1y3_fma, 10, 6) \
+	X(EW_RING_X0Y4, ew_ring_x0y4_fma, 9, 2) \
+	X(EW_RING_X5Y0, ew_ring_x5y0_fma, 11, 2) \
+	X(EW_RING_X4Y1, ew_ring_x4y1_fma, 16, 5) \
+	X(EW_RING_X3Y2, ew_ring_x3y2_fma, 18, 6) \
+	X(EW_RING_X2Y3, ew_ring_x2y3_fma, 18, 6) \
+	X(EW_RING_X1Y4, ew_ring_x1y4_fma, 16, 5) \
+	X(EW_RING_X0Y5, ew_ring_x0y5_fma, 11, 2) \
+	X(EW_RING_X6Y0, ew_ring_x6y0_fma, 13, 2) \
+	X(EW_RING_X5Y1, ew_ring_x5y1_fma, 17, 6) \
+	X(EW_RING_X4Y2, ew_ring_x4y2_fma, 23, 5) \
+	X(EW_RING_X3Y3, ew_ring_x3y3_fma, 25, 5) \
+	X(EW_RING_X2Y4, ew_ring_x2y4_fma, 23, 5) \
+	X(EW_RING_X1Y5, ew_ring_x1y5_fma, 17, 6) \
+	X(EW_RING_X0Y6, ew_ring_x0y6_fma, 13, 2) \
+	X(EW_RING_X7Y0, ew_ring_x7y0_fma, 15, 2) \
+	X(EW_RING_X6Y1, ew_ring_x6y1_fma, 24, 5) \
+	X(EW_RING_X5Y2, ew_ring_x5y2_fma, 25, 5) \
+	X(EW_RING_X4Y3, ew_ring_x4y3_fma, 30, 5) \
+	X(EW_RING_X3Y4, ew_ring_x3y4_fma, 30, 5) \
+	X(EW_RING_X2Y5, ew_ring_x2y5_fma, 25, 5) \
+	X(EW_RING_X1Y6, ew_ring_x1y6_fma, 24, 5) \
+	X(EW_RING_X0Y7, ew_ring_x0y7_fma, 15, 2) \
+	X(EW_RING_X8Y0, ew_ring_x8y0_fma, 17, 2) \
+	X(EW_RING_X7Y1, ew_ring_x7y1_fma, 22, 6) \
+	X(EW_RING_X6Y2, ew_ring_x6y2_fma, 31, 6) \
+	X(EW_RING_X5Y3, ew_ring_x5y3_fma, 31, 7) \
+	X(EW_RING_X4Y4, ew_ring_x4y4_fma, 35, 5) \
+	X(EW_RING_X3Y5, ew_ring_x3y5_fma, 31, 7) \
+	X(EW_RING_X2Y6, ew_ring_x2y6_fma, 31, 6) \
+	X(EW_RING_X1Y7, ew_ring_x1y7_fma, 22, 6) \
+	X(EW_RING_X0Y8, ew_ring_x0y8_fma, 17, 2)
 
-/* X(function, id): integrals of polynomials, float */
+/* X(function, id, edge, k): a polynomial over a ring, and over one edge with its k; float */
 #define EW_POLYNOMIALS_FLOAT(X)
 
-/* X(id, kernel): portable, float */
+/* X(id, kernel, f, a): portable, float; per item f on the FMA pipe, a additions */
 #define EW_RINGS_PORTABLE_FLOAT(X) \
-	X(EW_RING_MOMENTS_0, ew_ring_moments_0f_portable) \
-	X(EW_RING_MOMENTS_1, ew_ring_moments_1f_portable) \
-	X(EW_RING_MOMENTS_2, ew_ring_moments_2f_portable) \
-	X(EW_RING_MOMENTS_3, ew_ring_moments_3f_portable) \
-	X(EW_RING_MOMENTS_4, ew_ring_moments_4f_portable) \
-	X(EW_RING_MOMENTS_5, ew_ring_moments_5f_portable) \
-	X(EW_RING_MOMENTS_6, ew_ring_moments_6f_portable) \
-	X(EW_RING_MOMENTS_7, ew_ring_moments_7f_portable) \
-	X(EW_RING_MOMENTS_8, ew_ring_moments_8f_portable) \
-	X(EW_RING_X0Y0, ew_ring_x0y0f_portable) \
-	X(EW_RING_X1Y0, ew_ring_x1y0f_portable) \
-	X(EW_RING_X0Y1, ew_ring_x0y1f_portable) \
-	X(EW_RING_X2Y0, ew_ring_x2y0f_portable) \
-	X(EW_RING_X1Y1, ew_ring_x1y1f_portable) \
-	X(EW_RING_X0Y2, ew_ring_x0y2f_portable) \
-	X(EW_RING_X3Y0, ew_ring_x3y0f_portable) \
-	X(EW_RING_X2Y1, ew_ring_x2y1f_portable) \
-	X(EW_RING_X1Y2, ew_ring_x1y2f_portable) \
-	X(EW_RING_X0Y3, ew_ring_x0y3f_portable) \
-	X(EW_RING_X4Y0, ew_ring_x4y0f_portable) \
-	X(EW_RING_X3Y1, ew_ring_x3y1f_portable) \
-	X(EW_RING_X2Y2, ew_ring_x2y2f_portable) \
-	X(EW_RING_X1Y3, ew_ring_x1y3f_portable) \
-	X(EW_RING_X0Y4, ew_ring_x0y4f_portable) \
-	X(EW_RING_X5Y0, ew_ring_x5y0f_portable) \
-	X(EW_RING_X4Y1, ew_ring_x4y1f_portable) \
-	X(EW_RING_X3Y2, ew_ring_x3y2f_portable) \
-	X(EW_RING_X2Y3, ew_ring_x2y3f_portable) \
-	X(EW_RING_X1Y4, ew_ring_x1y4f_portable) \
-	X(EW_RING_X0Y5, ew_ring_x0y5f_portable) \
-	X(EW_RING_X6Y0, ew_ring_x6y0f_portable) \
-	X(EW_RING_X5Y1, ew_ring_x5y1f_portable) \
-	X(EW_RING_X4Y2, ew_ring_x4y2f_portable) \
-	X(EW_RING_X3Y3, ew_ring_x3y3f_portable) \
-	X(EW_RING_X2Y4, ew_ring_x2y4f_portable) \
-	X(EW_RING_X1Y5, ew_ring_x1y5f_portable) \
-	X(EW_RING_X0Y6, ew_ring_x0y6f_portable) \
-	X(EW_RING_X7Y0, ew_ring_x7y0f_portable) \
-	X(EW_RING_X6Y1, ew_ring_x6y1f_portable) \
-	X(EW_RING_X5Y2, ew_ring_x5y2f_portable) \
-	X(EW_RING_X4Y3, ew_ring_x4y3f_portable) \
-	X(EW_RING_X3Y4, ew_ring_x3y4f_portable) \
-	X(EW_RING_X2Y5, ew_ring_x2y5f_portable) \
-	X(EW_RING_X1Y6, ew_ring_x1y6f_portable) \
-	X(EW_RING_X0Y7, ew_ring_x0y7f_portable) \
-	X(EW_RING_X8Y0, ew_ring_x8y0f_portable) \
-	X(EW_RING_X7Y1, ew_ring_x7y1f_portable) \
-	X(EW_RING_X6Y2, ew_ring_x6y2f_portable) \
-	X(EW_RING_X5Y3, ew_ring_x5y3f_portable) \
-	X(EW_RING_X4Y4, ew_ring_x4y4f_portable) \
-	X(EW_RING_X3Y5, ew_ring_x3y5f_portable) \
-	X(EW_RING_X2Y6, ew_ring_x2y6f_portable) \
-	X(EW_RING_X1Y7, ew_ring_x1y7f_portable) \
-	X(EW_RING_X0Y8, ew_ring_x0y8f_portable)
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0f_portable, 1, 3) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1f_portable, 4, 6) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2f_portable, 12, 14) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3f_portable, 18, 23) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4f_portable, 33, 34) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5f_portable, 58, 52) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6f_portable, 81, 71) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7f_portable, 108, 93) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8f_portable, 139, 118) \
+	X(EW_RING_X0Y0, ew_ring_x0y0f_portable, 2, 2) \
+	X(EW_RING_X1Y0, ew_ring_x1y0f_portable, 3, 3) \
+	X(EW_RING_X0Y1, ew_ring_x0y1f_portable, 3, 3) \
+	X(EW_RING_X2Y0, ew_ring_x2y0f_portable, 5, 4) \
+	X(EW_RING_X1Y1, ew_ring_x1y1f_portable, 7, 5) \
+	X(EW_RING_X0Y2, ew_ring_x0y2f_portable, 5, 4) \
+	X(EW_RING_X3Y0, ew_ring_x3y0f_portable, 6, 5) \
+	X(EW_RING_X2Y1, ew_ring_x2y1f_portable, 10, 8) \
+	X(EW_RING_X1Y2, ew_ring_x1y2f_portable, 10, 8) \
+	X(EW_RING_X0Y3, ew_ring_x0y3f_portable, 6, 5) \
+	X(EW_RING_X4Y0, ew_ring_x4y0f_portable, 9, 6) \
+	X(EW_RING_X3Y1, ew_ring_x3y1f_portable, 10, 9) \
+	X(EW_RING_X2Y2, ew_ring_x2y2f_portable, 15, 10) \
+	X(EW_RING_X1Y3, ew_ring_x1y3f_portable, 10, 9) \
+	X(EW_RING_X0Y4, ew_ring_x0y4f_portable, 9, 6) \
+	X(EW_RING_X5Y0, ew_ring_x5y0f_portable, 11, 7) \
+	X(EW_RING_X4Y1, ew_ring_x4y1f_portable, 16, 10) \
+	X(EW_RING_X3Y2, ew_ring_x3y2f_portable, 18, 11) \
+	X(EW_RING_X2Y3, ew_ring_x2y3f_portable, 18, 11) \
+	X(EW_RING_X1Y4, ew_ring_x1y4f_portable, 16, 10) \
+	X(EW_RING_X0Y5, ew_ring_x0y5f_portable, 11, 7) \
+	X(EW_RING_X6Y0, ew_ring_x6y0f_portable, 13, 8) \
+	X(EW_RING_X5Y1, ew_ring_x5y1f_portable, 17, 11) \
+	X(EW_RING_X4Y2, ew_ring_x4y2f_portable, 23, 13) \
+	X(EW_RING_X3Y3, ew_ring_x3y3f_portable, 25, 13) \
+	X(EW_RING_X2Y4, ew_ring_x2y4f_portable, 23, 13) \
+	X(EW_RING_X1Y5, ew_ring_x1y5f_portable, 17, 11) \
+	X(EW_RING_X0Y6, ew_ring_x0y6f_portable, 13, 8) \
+	X(EW_RING_X7Y0, ew_ring_x7y0f_portable, 15, 9) \
+	X(EW_RING_X6Y1, ew_ring_x6y1f_portable, 24, 12) \
+	X(EW_RING_X5Y2, ew_ring_x5y2f_portable, 25, 14) \
+	X(EW_RING_X4Y3, ew_ring_x4y3f_portable, 30, 15) \
+	X(EW_RING_X3Y4, ew_ring_x3y4f_portable, 30, 15) \
+	X(EW_RING_X2Y5, ew_ring_x2y5f_portable, 25, 14) \
+	X(EW_RING_X1Y6, ew_ring_x1y6f_portable, 24, 12) \
+	X(EW_RING_X0Y7, ew_ring_x0y7f_portable, 15, 9) \
+	X(EW_RING_X8Y0, ew_ring_x8y0f_portable, 17, 10) \
+	X(EW_RING_X7Y1, ew_ring_x7y1f_portable, 22, 13) \
+	X(EW_RING_X6Y2, ew_ring_x6y2f_portable, 31, 16) \
+	X(EW_RING_X5Y3, ew_ring_x5y3f_portable, 31, 17) \
+	X(EW_RING_X4Y4, ew_ring_x4y4f_portable, 35, 18) \
+	X(EW_RING_X3Y5, ew_ring_x3y5f_portable, 31, 17) \
+	X(EW_RING_X2Y6, ew_ring_x2y6f_portable, 31, 16) \
+	X(EW_RING_X1Y7, ew_ring_x1y7f_portable, 22, 13) \
+	X(EW_RING_X0Y8, ew_ring_x0y8f_portable, 17, 10)
 
-/* X(id, kernel): fma, float */
+/* X(id, kernel, f, a): fma, float; per item f on the FMA pipe, a additions */
 #define EW_RINGS_FMA_FLOAT(X) \
-	X(EW_RING_MOMENTS_0, ew_ring_moments_0f_fma) \
-	X(EW_RING_MOMENTS_1, ew_ring_moments_1f_fma) \
-	X(EW_RING_MOMENTS_2, ew_ring_moments_2f_fma) \
-	X(EW_RING_MOMENTS_3, ew_ring_moments_3f_fma) \
-	X(EW_RING_MOMENTS_4, ew_ring_moments_4f_fma) \
-	X(EW_RING_MOMENTS_5, ew_ring_moments_5f_fma) \
-	X(EW_RING_MOMENTS_6, ew_ring_moments_6f_fma) \
-	X(EW_RING_MOMENTS_7, ew_ring_moments_7f_fma) \
-	X(EW_RING_MOMENTS_8, ew_ring_moments_8f_fma) \
-	X(EW_RING_X0Y0, ew_ring_x0y0f_fma) \
-	X(EW_RING_X1Y0, ew_ring_x1y0f_fma) \
-	X(EW_RING_X0Y1, ew_ring_x0y1f_fma) \
-	X(EW_RING_X2Y0, ew_ring_x2y0f_fma) \
-	X(EW_RING_X1Y1, ew_ring_x1y1f_fma) \
-	X(EW_RING_X0Y2, ew_ring_x0y2f_fma) \
-	X(EW_RING_X3Y0, ew_ring_x3y0f_fma) \
-	X(EW_RING_X2Y1, ew_ring_x2y1f_fma) \
-	X(EW_RING_X1Y2, ew_ring_x1y2f_fma) \
-	X(EW_RING_X0Y3, ew_ring_x0y3f_fma) \
-	X(EW_RING_X4Y0, ew_ring_x4y0f_fma) \
-	X(EW_RING_X3Y1, ew_ring_x3y1f_fma) \
-	X(EW_RING_X2Y2, ew_ring_x2y2f_fma) \
-	X(EW_RING_X1Y3, ew_ring_x1y3f_fma) \
-	X(EW_RING_X0Y4, ew_ring_x0y4f_fma) \
-	X(EW_RING_X5Y0, ew_ring_x5y0f_fma) \
-	X(EW_RING_X4Y1, ew_ring_x4y1f_fma) \
-	X(EW_RING_X3Y2, ew_ring_x3y2f_fma) \
-	X(EW_RING_X2Y3, ew_ring_x2y3f_fma) \
-	X(EW_RING_X1Y4, ew_ring_x1y4f_fma) \
-	X(EW_RING_X0Y5, ew_ring_x0y5f_fma) \
-	X(EW_RING_X6Y0, ew_ring_x6y0f_fma) \
-	X(EW_RING_X5Y1, ew_ring_x5y1f_fma) \
-	X(EW_RING_X4Y2, ew_ring_x4y2f_fma) \
-	X(EW_RING_X3Y3, ew_ring_x3y3f_fma) \
-	X(EW_RING_X2Y4, ew_ring_x2y4f_fma) \
-	X(EW_RING_X1Y5, ew_ring_x1y5f_fma) \
-	X(EW_RING_X0Y6, ew_ring_x0y6f_fma) \
-	X(EW_RING_X7Y0, ew_ring_x7y0f_fma) \
-	X(EW_RING_X6Y1, ew_ring_x6y1f_fma) \
-	X(EW_RING_X5Y2, ew_ring_x5y2f_fma) \
-	X(EW_RING_X4Y3, ew_ring_x4y3f_fma) \
-	X(EW_RING_X3Y4, ew_ring_x3y4f_fma) \
-	X(EW_RING_X2Y5, ew_ring_x2y5f_fma) \
-	X(EW_RING_X1Y6, ew_ring_x1y6f_fma) \
-	X(EW_RING_X0Y7, ew_ring_x0y7f_fma) \
-	X(EW_RING_X8Y0, ew_ring_x8y0f_fma) \
-	X(EW_RING_X7Y1, ew_ring_x7y1f_fma) \
-	X(EW_RING_X6Y2, ew_ring_x6y2f_fma) \
-	X(EW_RING_X5Y3, ew_ring_x5y3f_fma) \
-	X(EW_RING_X4Y4, ew_ring_x4y4f_fma) \
-	X(EW_RING_X3Y5, ew_ring_x3y5f_fma) \
-	X(EW_RING_X2Y6, ew_ring_x2y6f_fma) \
-	X(EW_RING_X1Y7, ew_ring_x1y7f_fma) \
-	X(EW_RING_X0Y8, ew_ring_x0y8f_fma)
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0f_fma, 1, 2) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1f_fma, 4, 4) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2f_fma, 12, 6) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3f_fma, 18, 14) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4f_fma, 33, 12) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5f_fma, 58, 16) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6f_fma, 81, 22) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7f_fma, 108, 29) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8f_fma, 139, 37) \
+	X(EW_RING_X0Y0, ew_ring_x0y0f_fma, 2, 2) \
+	X(EW_RING_X1Y0, ew_ring_x1y0f_fma, 3, 2) \
+	X(EW_RING_X0Y1, ew_ring_x0y1f_fma, 3, 2) \
+	X(EW_RING_X2Y0, ew_ring_x2y0f_fma, 5, 2) \
+	X(EW_RING_X1Y1, ew_ring_x1y1f_fma, 7, 1) \
+	X(EW_RING_X0Y2, ew_ring_x0y2f_fma, 5, 2) \
+	X(EW_RING_X3Y0, ew_ring_x3y0f_fma, 6, 3) \
+	X(EW_RING_X2Y1, ew_ring_x2y1f_fma, 10, 5) \
+	X(EW_RING_X1Y2, ew_ring_x1y2f_fma, 10, 5) \
+	X(EW_RING_X0Y3, ew_ring_x0y3f_fma, 6, 3) \
+	X(EW_RING_X4Y0, ew_ring_x4y0f_fma, 9, 2) \
+	X(EW_RING_X3Y1, ew_ring_x3y1f_fma, 10, 6) \
+	X(EW_RING_X2Y2, ew_ring_x2y2f_fma, 15, 5) \
+	X(EW_RING_X1Y3, ew_ring_x1y3f_fma, 10, 6) \
+	X(EW_RING_X0Y4, ew_ring_x0y4f_fma, 9, 2) \
+	X(EW_RING_X5Y0, ew_ring_x5y0f_fma, 11, 2) \
+	X(EW_RING_X4Y1, ew_ring_x4y1f_fma, 16, 5) \
+	X(EW_RING_X3Y2, ew_ring_x3y2f_fma, 18, 6) \
+	X(EW_RING_X2Y3, ew_ring_x2y3f_fma, 18, 6) \
+	X(EW_RING_X1Y4, ew_ring_x1y4f_fma, 16, 5) \
+	X(EW_RING_X0Y5, ew_ring_x0y5f_fma, 11, 2) \
+	X(EW_RING_X6Y0, ew_ring_x6y0f_fma, 13, 2) \
+	X(EW_RING_X5Y1, ew_ring_x5y1f_fma, 17, 6) \
+	X(EW_RING_X4Y2, ew_ring_x4y2f_fma, 23, 5) \
+	X(EW_RING_X3Y3, ew_ring_x3y3f_fma, 25, 5) \
+	X(EW_RING_X2Y4, ew_ring_x2y4f_fma, 23, 5) \
+	X(EW_RING_X1Y5, ew_ring_x1y5f_fma, 17, 6) \
+	X(EW_RING_X0Y6, ew_ring_x0y6f_fma, 13, 2) \
+	X(EW_RING_X7Y0, ew_ring_x7y0f_fma, 15, 2) \
+	X(EW_RING_X6Y1, ew_ring_x6y1f_fma, 24, 5) \
+	X(EW_RING_X5Y2, ew_ring_x5y2f_fma, 25, 5) \
+	X(EW_RING_X4Y3, ew_ring_x4y3f_fma, 30, 5) \
+	X(EW_RING_X3Y4, ew_ring_x3y4f_fma, 30, 5) \
+	X(EW_RING_X2Y5, ew_ring_x2y5f_fma, 25, 5) \
+	X(EW_RING_X1Y6, ew_ring_x1y6f_fma, 24, 5) \
+	X(EW_RING_X0Y7, ew_ring_x0y7f_fma, 15, 2) \
+	X(EW_RING_X8Y0, ew_ring_x8y0f_fma, 17, 2) \
+	X(EW_RING_X7Y1, ew_ring_x7y1f_fma, 22, 6) \
+	X(EW_RING_X6Y2, ew_ring_x6y2f_fma, 31, 6) \
+	X(EW_RING_X5Y3, ew_ring_x5y3f_fma, 31, 7) \
+	X(EW_RING_X4Y4, ew_ring_x4y4f_fma, 35, 5) \
+	X(EW_RING_X3Y5, ew_ring_x3y5f_fma, 31, 7) \
+	X(EW_RING_X2Y6, ew_ring_x2y6f_fma, 31, 6) \
+	X(EW_RING_X1Y7, ew_ring_x1y7f_fma, 22, 6) \
+	X(EW_RING_X0Y8, ew_ring_x0y8f_fma, 17, 2)
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* `count` items; cx is the abscissa of the local origin (vertex form only); sum[accumulator * lanes + lane]
- * is added to. Results: finish(sums over all lanes, out). */
+/* `count` items; cx is the abscissa of the local origin (vertex form only); added to
+ * sum[accumulator * lanes + lane]. Results: finish(sums over all lanes, out). */
 typedef void ew_run(const double *x, const double *y, double cx, size_t count, double *sum);
 typedef void ew_runf(const float *x, const float *y, float cx, size_t count, float *sum);
 typedef void ew_finish(const double *sum, double *out);
@@ -602,19 +602,19 @@ typedef void ew_finish(const double *sum, double *out);
 #define EW_DECLARE(id, window, accumulators, outputs, finish) ew_finish finish;
 EW_RING_SHAPES(EW_DECLARE)
 #undef EW_DECLARE
-#define EW_DECLARE(id, kernel) ew_run kernel;
+#define EW_DECLARE(id, kernel, f, a) ew_run kernel;
 EW_RINGS_PORTABLE_DOUBLE(EW_DECLARE)
 #undef EW_DECLARE
 #if EW_BUILD_FMA
-#define EW_DECLARE(id, kernel) ew_run kernel;
+#define EW_DECLARE(id, kernel, f, a) ew_run kernel;
 EW_RINGS_FMA_DOUBLE(EW_DECLARE)
 #undef EW_DECLARE
 #endif
-#define EW_DECLARE(id, kernel) ew_runf kernel;
+#define EW_DECLARE(id, kernel, f, a) ew_runf kernel;
 EW_RINGS_PORTABLE_FLOAT(EW_DECLARE)
 #undef EW_DECLARE
 #if EW_BUILD_FMA
-#define EW_DECLARE(id, kernel) ew_runf kernel;
+#define EW_DECLARE(id, kernel, f, a) ew_runf kernel;
 EW_RINGS_FMA_FLOAT(EW_DECLARE)
 #undef EW_DECLARE
 #endif

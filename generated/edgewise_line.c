@@ -17,7 +17,8 @@
  *     1    |      1 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^2.
- * Error: at most gamma_2 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_2 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 3 mul, 1 add; depth 3. */
 double ew_line_x0y0(double x0, double y0, double x1, double y1)
@@ -35,7 +36,8 @@ double ew_line_x0y0(double x0, double y0, double x1, double y1)
  *     x1   |      1 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^3.
- * Error: at most gamma_6 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_6 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 4 mul, 2 add; depth 4. */
 double ew_line_x1y0(double x0, double y0, double x1, double y1)
@@ -53,7 +55,8 @@ double ew_line_x1y0(double x0, double y0, double x1, double y1)
  *     1    |      1      1 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^3.
- * Error: at most gamma_6 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_6 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 4 mul, 2 add; depth 4. */
 double ew_line_x0y1(double x0, double y0, double x1, double y1)
@@ -73,7 +76,8 @@ double ew_line_x0y1(double x0, double y0, double x1, double y1)
  *     x1^2  |      1 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^4.
- * Error: at most gamma_8 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_8 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 7 mul, 3 add; depth 5. */
 double ew_line_x2y0(double x0, double y0, double x1, double y1)
@@ -95,7 +99,8 @@ double ew_line_x2y0(double x0, double y0, double x1, double y1)
  *     x1   |      1      2 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^4.
- * Error: at most gamma_8 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_8 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 8 mul, 4 add; depth 6. */
 double ew_line_x1y1(double x0, double y0, double x1, double y1)
@@ -115,7 +120,8 @@ double ew_line_x1y1(double x0, double y0, double x1, double y1)
  *     1    |      1      1      1 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^4.
- * Error: at most gamma_8 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_8 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 7 mul, 3 add; depth 5. */
 double ew_line_x0y2(double x0, double y0, double x1, double y1)
@@ -139,7 +145,8 @@ double ew_line_x0y2(double x0, double y0, double x1, double y1)
  *     x1^3    |      1 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^5.
- * Error: at most gamma_9 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_9 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 11 mul, 4 add; depth 6. */
 double ew_line_x3y0(double x0, double y0, double x1, double y1)
@@ -166,7 +173,8 @@ double ew_line_x3y0(double x0, double y0, double x1, double y1)
  *     x1^2  |      1      3 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^5.
- * Error: at most gamma_11 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_11 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 14 mul, 6 add; depth 7. */
 double ew_line_x2y1(double x0, double y0, double x1, double y1)
@@ -191,7 +199,8 @@ double ew_line_x2y1(double x0, double y0, double x1, double y1)
  *     x1   |      1      2      3 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^5.
- * Error: at most gamma_11 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_11 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 12 mul, 6 add; depth 8. */
 double ew_line_x1y2(double x0, double y0, double x1, double y1)
@@ -215,7 +224,8 @@ double ew_line_x1y2(double x0, double y0, double x1, double y1)
  *     1    |        1        1        1        1 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^5.
- * Error: at most gamma_9 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_9 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 11 mul, 4 add; depth 6. */
 double ew_line_x0y3(double x0, double y0, double x1, double y1)
@@ -244,7 +254,8 @@ double ew_line_x0y3(double x0, double y0, double x1, double y1)
  *     x1^4      |      1 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^6.
- * Error: at most gamma_11 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_11 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 12 mul, 5 add; depth 7. */
 double ew_line_x4y0(double x0, double y0, double x1, double y1)
@@ -273,7 +284,8 @@ double ew_line_x4y0(double x0, double y0, double x1, double y1)
  *     x1^3    |      1      4 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^6.
- * Error: at most gamma_12 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_12 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 21 mul, 8 add; depth 7. */
 double ew_line_x3y1(double x0, double y0, double x1, double y1)
@@ -304,7 +316,8 @@ double ew_line_x3y1(double x0, double y0, double x1, double y1)
  *     x1^2  |      1      3      6 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^6.
- * Error: at most gamma_13 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_13 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 19 mul, 9 add; depth 9. */
 double ew_line_x2y2(double x0, double y0, double x1, double y1)
@@ -333,7 +346,8 @@ double ew_line_x2y2(double x0, double y0, double x1, double y1)
  *     x1   |        1        2        3        4 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^6.
- * Error: at most gamma_13 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_13 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 19 mul, 8 add; depth 10. */
 double ew_line_x1y3(double x0, double y0, double x1, double y1)
@@ -360,7 +374,8 @@ double ew_line_x1y3(double x0, double y0, double x1, double y1)
  *     1    |          1          1          1          1          1 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^6.
- * Error: at most gamma_11 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_11 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 12 mul, 5 add; depth 7. */
 double ew_line_x0y4(double x0, double y0, double x1, double y1)
@@ -391,7 +406,8 @@ double ew_line_x0y4(double x0, double y0, double x1, double y1)
  *     x1^5      |      1 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^7.
- * Error: at most gamma_12 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_12 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 16 mul, 6 add; depth 8. */
 double ew_line_x5y0(double x0, double y0, double x1, double y1)
@@ -425,7 +441,8 @@ double ew_line_x5y0(double x0, double y0, double x1, double y1)
  *     x1^4      |      1      5 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^7.
- * Error: at most gamma_14 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_14 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 25 mul, 10 add; depth 8. */
 double ew_line_x4y1(double x0, double y0, double x1, double y1)
@@ -460,7 +477,8 @@ double ew_line_x4y1(double x0, double y0, double x1, double y1)
  *     x1^3    |      1      4     10 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^7.
- * Error: at most gamma_14 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_14 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 26 mul, 12 add; depth 9. */
 double ew_line_x3y2(double x0, double y0, double x1, double y1)
@@ -496,7 +514,8 @@ double ew_line_x3y2(double x0, double y0, double x1, double y1)
  *     x1^2  |        1        3        6       10 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^7.
- * Error: at most gamma_15 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_15 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 25 mul, 12 add; depth 11. */
 double ew_line_x2y3(double x0, double y0, double x1, double y1)
@@ -530,7 +549,8 @@ double ew_line_x2y3(double x0, double y0, double x1, double y1)
  *     x1   |          1          2          3          4          5 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^7.
- * Error: at most gamma_15 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_15 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 21 mul, 10 add; depth 11. */
 double ew_line_x1y4(double x0, double y0, double x1, double y1)
@@ -559,7 +579,8 @@ double ew_line_x1y4(double x0, double y0, double x1, double y1)
  *     1    |          1          1          1          1          1          1 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^7.
- * Error: at most gamma_12 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_12 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 16 mul, 6 add; depth 8. */
 double ew_line_x0y5(double x0, double y0, double x1, double y1)
@@ -595,7 +616,8 @@ double ew_line_x0y5(double x0, double y0, double x1, double y1)
  *     x1^6      |      1 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^8.
- * Error: at most gamma_14 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_14 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 19 mul, 7 add; depth 9. */
 double ew_line_x6y0(double x0, double y0, double x1, double y1)
@@ -633,7 +655,8 @@ double ew_line_x6y0(double x0, double y0, double x1, double y1)
  *     x1^5      |      1      6 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^8.
- * Error: at most gamma_15 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_15 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 32 mul, 12 add; depth 9. */
 double ew_line_x5y1(double x0, double y0, double x1, double y1)
@@ -674,7 +697,8 @@ double ew_line_x5y1(double x0, double y0, double x1, double y1)
  *     x1^4      |      1      5     15 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^8.
- * Error: at most gamma_16 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_16 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 31 mul, 15 add; depth 10. */
 double ew_line_x4y2(double x0, double y0, double x1, double y1)
@@ -714,7 +738,8 @@ double ew_line_x4y2(double x0, double y0, double x1, double y1)
  *     x1^3    |        1        4       10       20 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^8.
- * Error: at most gamma_16 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_16 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 36 mul, 16 add; depth 11. */
 double ew_line_x3y3(double x0, double y0, double x1, double y1)
@@ -752,7 +777,8 @@ double ew_line_x3y3(double x0, double y0, double x1, double y1)
  *     x1^2  |          1          3          6         10         15 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^8.
- * Error: at most gamma_17 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_17 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 30 mul, 15 add; depth 12. */
 double ew_line_x2y4(double x0, double y0, double x1, double y1)
@@ -787,7 +813,8 @@ double ew_line_x2y4(double x0, double y0, double x1, double y1)
  *     x1   |          1          2          3          4          5          6 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^8.
- * Error: at most gamma_17 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_17 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 28 mul, 12 add; depth 13. */
 double ew_line_x1y5(double x0, double y0, double x1, double y1)
@@ -821,7 +848,8 @@ double ew_line_x1y5(double x0, double y0, double x1, double y1)
  *     1    |          1          1          1          1          1          1          1 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^8.
- * Error: at most gamma_14 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_14 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 19 mul, 7 add; depth 9. */
 double ew_line_x0y6(double x0, double y0, double x1, double y1)
@@ -861,7 +889,8 @@ double ew_line_x0y6(double x0, double y0, double x1, double y1)
  *     x1^7      |      1 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^9.
- * Error: at most gamma_15 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_15 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 23 mul, 8 add; depth 10. */
 double ew_line_x7y0(double x0, double y0, double x1, double y1)
@@ -904,7 +933,8 @@ double ew_line_x7y0(double x0, double y0, double x1, double y1)
  *     x1^6      |      1      7 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^9.
- * Error: at most gamma_17 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_17 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 38 mul, 14 add; depth 10. */
 double ew_line_x6y1(double x0, double y0, double x1, double y1)
@@ -950,7 +980,8 @@ double ew_line_x6y1(double x0, double y0, double x1, double y1)
  *     x1^5      |      1      6     21 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^9.
- * Error: at most gamma_17 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_17 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 38 mul, 18 add; depth 10. */
 double ew_line_x5y2(double x0, double y0, double x1, double y1)
@@ -997,7 +1028,8 @@ double ew_line_x5y2(double x0, double y0, double x1, double y1)
  *     x1^4      |        1        5       15       35 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^9.
- * Error: at most gamma_18 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_18 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 42 mul, 20 add; depth 12. */
 double ew_line_x4y3(double x0, double y0, double x1, double y1)
@@ -1039,7 +1071,8 @@ double ew_line_x4y3(double x0, double y0, double x1, double y1)
  *     x1^3    |          1          4         10         20         35 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^9.
- * Error: at most gamma_18 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_18 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 37 mul, 20 add; depth 12. */
 double ew_line_x3y4(double x0, double y0, double x1, double y1)
@@ -1082,7 +1115,8 @@ double ew_line_x3y4(double x0, double y0, double x1, double y1)
  *     x1^2  |          1          3          6         10         15         21 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^9.
- * Error: at most gamma_19 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_19 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 38 mul, 18 add; depth 14. */
 double ew_line_x2y5(double x0, double y0, double x1, double y1)
@@ -1122,7 +1156,8 @@ double ew_line_x2y5(double x0, double y0, double x1, double y1)
  *     x1   |          1          2          3          4          5          6          7 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^9.
- * Error: at most gamma_19 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_19 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 32 mul, 14 add; depth 14. */
 double ew_line_x1y6(double x0, double y0, double x1, double y1)
@@ -1159,7 +1194,8 @@ double ew_line_x1y6(double x0, double y0, double x1, double y1)
  *     (sum over p, q of C(p+q,q) C(m+n-p-q,n-q) x0^(m-p) x1^p y0^(n-q) y1^q)
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^9.
- * Error: at most gamma_15 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_15 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 23 mul, 8 add; depth 10. */
 double ew_line_x0y7(double x0, double y0, double x1, double y1)
@@ -1204,7 +1240,8 @@ double ew_line_x0y7(double x0, double y0, double x1, double y1)
  *     x1^8      |      1 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^10.
- * Error: at most gamma_17 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_17 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 24 mul, 9 add; depth 11. */
 double ew_line_x8y0(double x0, double y0, double x1, double y1)
@@ -1250,7 +1287,8 @@ double ew_line_x8y0(double x0, double y0, double x1, double y1)
  *     x1^7      |      1      8 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^10.
- * Error: at most gamma_18 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_18 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 45 mul, 16 add; depth 11. */
 double ew_line_x7y1(double x0, double y0, double x1, double y1)
@@ -1302,7 +1340,8 @@ double ew_line_x7y1(double x0, double y0, double x1, double y1)
  *     x1^6      |      1      7     28 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^10.
- * Error: at most gamma_19 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_19 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 45 mul, 21 add; depth 11. */
 double ew_line_x6y2(double x0, double y0, double x1, double y1)
@@ -1354,7 +1393,8 @@ double ew_line_x6y2(double x0, double y0, double x1, double y1)
  *     x1^5      |        1        6       21       56 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^10.
- * Error: at most gamma_19 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_19 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 49 mul, 24 add; depth 12. */
 double ew_line_x5y3(double x0, double y0, double x1, double y1)
@@ -1404,7 +1444,8 @@ double ew_line_x5y3(double x0, double y0, double x1, double y1)
  *     x1^4      |          1          5         15         35         70 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^10.
- * Error: at most gamma_20 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_20 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 46 mul, 25 add; depth 13. */
 double ew_line_x4y4(double x0, double y0, double x1, double y1)
@@ -1450,7 +1491,8 @@ double ew_line_x4y4(double x0, double y0, double x1, double y1)
  *     x1^3    |          1          4         10         20         35         56 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^10.
- * Error: at most gamma_20 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_20 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 49 mul, 24 add; depth 14. */
 double ew_line_x3y5(double x0, double y0, double x1, double y1)
@@ -1497,7 +1539,8 @@ double ew_line_x3y5(double x0, double y0, double x1, double y1)
  *     x1^2  |          1          3          6         10         15         21         28 |
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^10.
- * Error: at most gamma_21 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_21 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 41 mul, 21 add; depth 15. */
 double ew_line_x2y6(double x0, double y0, double x1, double y1)
@@ -1541,7 +1584,8 @@ double ew_line_x2y6(double x0, double y0, double x1, double y1)
  *     (sum over p, q of C(p+q,q) C(m+n-p-q,n-q) x0^(m-p) x1^p y0^(n-q) y1^q)
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^10.
- * Error: at most gamma_21 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_21 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 39 mul, 16 add; depth 16. */
 double ew_line_x1y7(double x0, double y0, double x1, double y1)
@@ -1581,7 +1625,8 @@ double ew_line_x1y7(double x0, double y0, double x1, double y1)
  *     (sum over p, q of C(p+q,q) C(m+n-p-q,n-q) x0^(m-p) x1^p y0^(n-q) y1^q)
  *
  * Sum it over a closed boundary; counterclockwise is positive. Unit: coordinate^10.
- * Error: at most gamma_17 times the same sum with every term positive, gamma_k = k u/(1 - k u), u = 2^-53.
+ * Error: at most gamma_17 times the same sum with every term positive; gamma_k = k u/(1 - k u),
+ * u = 2^-53.
  * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.
  * Cost: 24 mul, 9 add; depth 11. */
 double ew_line_x0y8(double x0, double y0, double x1, double y1)

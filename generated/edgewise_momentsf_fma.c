@@ -15,8 +15,8 @@
 
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 1 accumulators, 4 values alive, depth 2. */
-EW_ATTRIBUTE_FMA void ew_ring_moments_0f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_moments_0f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
 		float acc0 = sum[lane];
@@ -34,8 +34,8 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_0f_fma(const float *x, const float *y, flo
 
 /* all moments of x^m y^n, m + n <= 1; scheme even-power.
  * Cost per item: 4 mul or fma, 4 add; 3 accumulators, 7 values alive, depth 3. */
-EW_ATTRIBUTE_FMA void ew_ring_moments_1f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_moments_1f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -64,8 +64,8 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_1f_fma(const float *x, const float *y, flo
 
 /* all moments of x^m y^n, m + n <= 2; scheme shared.
  * Cost per item: 12 mul or fma, 6 add; 6 accumulators, 10 values alive, depth 4. */
-EW_ATTRIBUTE_FMA void ew_ring_moments_2f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_moments_2f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -110,8 +110,8 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_2f_fma(const float *x, const float *y, flo
 
 /* all moments of x^m y^n, m + n <= 3; scheme even-power.
  * Cost per item: 18 mul or fma, 14 add; 15 accumulators, 11 values alive, depth 6. */
-EW_ATTRIBUTE_FMA void ew_ring_moments_3f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_moments_3f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -188,8 +188,8 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_3f_fma(const float *x, const float *y, flo
 
 /* all moments of x^m y^n, m + n <= 4; scheme even-power.
  * Cost per item: 33 mul or fma, 12 add; 26 accumulators, 15 values alive, depth 5. */
-EW_ATTRIBUTE_FMA void ew_ring_moments_4f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_moments_4f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -301,8 +301,8 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_4f_fma(const float *x, const float *y, flo
 
 /* all moments of x^m y^n, m + n <= 5; scheme recurrence.
  * Cost per item: 58 mul or fma, 16 add; 25 accumulators, 16 values alive, depth 13. */
-EW_ATTRIBUTE_FMA void ew_ring_moments_5f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_moments_5f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -441,8 +441,8 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_5f_fma(const float *x, const float *y, flo
 
 /* all moments of x^m y^n, m + n <= 6; scheme recurrence.
  * Cost per item: 81 mul or fma, 22 add; 33 accumulators, 18 values alive, depth 15. */
-EW_ATTRIBUTE_FMA void ew_ring_moments_6f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_moments_6f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -626,8 +626,8 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_6f_fma(const float *x, const float *y, flo
 
 /* all moments of x^m y^n, m + n <= 7; scheme recurrence.
  * Cost per item: 108 mul or fma, 29 add; 42 accumulators, 20 values alive, depth 17. */
-EW_ATTRIBUTE_FMA void ew_ring_moments_7f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_moments_7f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -863,8 +863,8 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_7f_fma(const float *x, const float *y, flo
 
 /* all moments of x^m y^n, m + n <= 8; scheme recurrence.
  * Cost per item: 139 mul or fma, 37 add; 52 accumulators, 22 values alive, depth 19. */
-EW_ATTRIBUTE_FMA void ew_ring_moments_8f_fma(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+EW_ATTRIBUTE_FMA void ew_ring_moments_8f_fma(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {

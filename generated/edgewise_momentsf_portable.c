@@ -11,8 +11,8 @@
 
 /* area; scheme vertex.
  * Cost per item: 1 mul, 3 add; 1 accumulators, 4 values alive, depth 3. */
-void ew_ring_moments_0f_portable(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+void ew_ring_moments_0f_portable(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
 		float acc0 = sum[lane];
@@ -31,8 +31,8 @@ void ew_ring_moments_0f_portable(const float *x, const float *y, float cx, size_
 
 /* all moments of x^m y^n, m + n <= 1; scheme even-power.
  * Cost per item: 4 mul, 6 add; 3 accumulators, 7 values alive, depth 4. */
-void ew_ring_moments_1f_portable(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+void ew_ring_moments_1f_portable(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -63,8 +63,8 @@ void ew_ring_moments_1f_portable(const float *x, const float *y, float cx, size_
 
 /* all moments of x^m y^n, m + n <= 2; scheme shared.
  * Cost per item: 12 mul, 14 add; 6 accumulators, 11 values alive, depth 6. */
-void ew_ring_moments_2f_portable(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+void ew_ring_moments_2f_portable(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -117,8 +117,8 @@ void ew_ring_moments_2f_portable(const float *x, const float *y, float cx, size_
 
 /* all moments of x^m y^n, m + n <= 3; scheme even-power.
  * Cost per item: 18 mul, 23 add; 15 accumulators, 11 values alive, depth 7. */
-void ew_ring_moments_3f_portable(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+void ew_ring_moments_3f_portable(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -204,8 +204,8 @@ void ew_ring_moments_3f_portable(const float *x, const float *y, float cx, size_
 
 /* all moments of x^m y^n, m + n <= 4; scheme even-power.
  * Cost per item: 33 mul, 34 add; 26 accumulators, 16 values alive, depth 6. */
-void ew_ring_moments_4f_portable(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+void ew_ring_moments_4f_portable(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -339,8 +339,8 @@ void ew_ring_moments_4f_portable(const float *x, const float *y, float cx, size_
 
 /* all moments of x^m y^n, m + n <= 5; scheme recurrence.
  * Cost per item: 58 mul, 52 add; 25 accumulators, 16 values alive, depth 16. */
-void ew_ring_moments_5f_portable(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+void ew_ring_moments_5f_portable(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -515,8 +515,8 @@ void ew_ring_moments_5f_portable(const float *x, const float *y, float cx, size_
 
 /* all moments of x^m y^n, m + n <= 6; scheme recurrence.
  * Cost per item: 81 mul, 71 add; 33 accumulators, 18 values alive, depth 19. */
-void ew_ring_moments_6f_portable(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+void ew_ring_moments_6f_portable(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -749,8 +749,8 @@ void ew_ring_moments_6f_portable(const float *x, const float *y, float cx, size_
 
 /* all moments of x^m y^n, m + n <= 7; scheme recurrence.
  * Cost per item: 108 mul, 93 add; 42 accumulators, 20 values alive, depth 22. */
-void ew_ring_moments_7f_portable(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+void ew_ring_moments_7f_portable(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
@@ -1050,8 +1050,8 @@ void ew_ring_moments_7f_portable(const float *x, const float *y, float cx, size_
 
 /* all moments of x^m y^n, m + n <= 8; scheme recurrence.
  * Cost per item: 139 mul, 118 add; 52 accumulators, 22 values alive, depth 25. */
-void ew_ring_moments_8f_portable(const float *x, const float *y, float cx, size_t count,
-	float *sum)
+void ew_ring_moments_8f_portable(
+	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {

@@ -20,7 +20,7 @@ typedef struct {
 
 static EW_RUN *EW_NAME(kernel)(int id)
 {
-#define EW_ROW(id, kernel) kernel,
+#define EW_ROW(id, kernel, f, a) kernel,
 	static EW_RUN *const portable[] = { EW_LIST_PORTABLE(EW_ROW) };
 #if EW_BUILD_FMA
 	static EW_RUN *const fma_kernels[] = { EW_LIST_FMA(EW_ROW) };
@@ -136,7 +136,7 @@ static EW_REAL EW_NAME(integrate_one)(int id, const EW_REAL *x, const EW_REAL *y
 	return (EW_REAL)out[0];
 }
 
-#define EW_FUNCTION(function, id) \
+#define EW_FUNCTION(function, id, edge, k) \
 	EW_REAL function(const EW_REAL *x, const EW_REAL *y, size_t n) { return EW_NAME(integrate_one)(id, x, y, n); }
 EW_LIST_POLYNOMIALS(EW_FUNCTION)
 #undef EW_FUNCTION
