@@ -72,10 +72,64 @@ $(B)/lib/%.o: $(B)/emitted/%.c $(B)/emitted/edgewise.h $(B)/emitted/edgewise_ker
 generated: $(B)/gen
 	$(B)/gen --max-degree $(DEGREE) --no-runtime --out generated
 
-# ---- examples, tests, bench ----
+# ---- examples and bench ----
 
 $(B)/shapes: examples/shapes.c library
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
+
+$(B)/bench: bench/bench.c library
+	$(COMPILE) -std=c11 -fno-tree-vectorize -fno-tree-slp-vectorize -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
+
+bench: $(B)/bench
+	@$(B)/bench
+
+# ---- tests ----
+
+RING_TESTS := rings lanes central ring_contract long_rings
+PROGRAMS   := $(addprefix $(B)/tests/,units lines polynomials shapes $(RING_TESTS))
+TEST_BUILD  = $(CC) -std=gnu11 -Wall -Wextra -ffp-contract=off $(SANITIZE) $(CFLAGS) -Itests
+
+# Expressions of the table in tests/polynomials.c.
+$(B)/polynomials.stamp: $(B)/gen
+	$(B)/gen --max-degree 1 --polynomial 'soft=(1-x)*(1-y)' --polynomial 'saddle=x^2-y^2' \
+		--polynomial 'deep=x^5*y^3/7 - 2.5*x^2*y^4 - 2*x + 1/3' --out $(B)/polynomials
+	@touch $@
+
+$(B)/tests/units: tests/units.c tests/check.h $(filter-out %/main.o %/deliver.o %/bundle.o,$(GEN_OBJ)) | $(B)/tests
+	$(TEST_BUILD) -o $@ $(filter %.c %.o,$^) $(LDFLAGS) $(MATH)
+
+$(B)/tests/polynomials: tests/polynomials.c tests/reference.c $(B)/polynomials.stamp | $(B)/tests
+	$(TEST_BUILD) -I$(B)/polynomials -o $@ $(filter %.c,$^) $(B)/polynomials/*.c $(LDFLAGS) $(MATH)
+
+$(B)/tests/%: tests/%.c tests/reference.c tests/reference.h tests/check.h tests/bounds.h library | $(B)/tests
+	$(TEST_BUILD) -I$(B)/emitted -o $@ $(filter %.c,$^) $(LIB) $(LDFLAGS) $(MATH)
+
+test: $(PROGRAMS) $(B)/shapes $(B)/bench
+	@sh tests/run.sh $(B)/tests/logs \
+		'layers: sh tests/layers.sh $(B) "$(GEN)"' \
+		'units: $(B)/tests/units' 'readme: sh tests/readme.sh $(B)' 'golden: sh tests/golden.sh $(B)' 'counts: sh tests/counts.sh $(B)' \
+		'lines: $(B)/tests/lines' $(foreach t,$(RING_TESTS),'$(t): $(B)/tests/$(t)') \
+		'polynomials: $(B)/tests/polynomials' \
+		'shapes: $(B)/shapes --exact examples/data/countries.txt | $(B)/tests/shapes' \
+		'command-line: sh tests/cli.sh $(B)/gen' 'same-output: sh tests/same_output.sh $(B)' \
+		'mutation: sh tests/mutation.sh $(B)' 'matrix: sh tests/matrix.sh $(B)'
+
+layers: $(B)/gen
+	@sh tests/layers.sh $(B) "$(GEN)"
+
+accept: $(B)/gen
+	@sh tests/golden.sh $(B) accept
+
+# gmp and mpfr for the reference; the other compilers only widen the compile matrix.
+PACKAGES := gcc g++ clang tcc make binutils libc6-dev libgmp-dev libmpfr-dev
+deps:
+	@if command -v apt-get >/dev/null; then \
+		run=; [ "$$(id -u)" = 0 ] || run=sudo; \
+		$$run apt-get update -qq && DEBIAN_FRONTEND=noninteractive $$run apt-get install -y -qq \
+			--no-install-recommends $(PACKAGES) >/dev/null; \
+	else \
+		echo "make deps knows Debian's package names only; install the equivalents of: $(PACKAGES)"; exit 1; \
+	fi
 
 clean:
 	rm -rf $(B)
