@@ -101,7 +101,7 @@ $(B)/tests/units: tests/units.c tests/check.h $(filter-out %/main.o %/deliver.o 
 $(B)/tests/polynomials: tests/polynomials.c tests/reference.c $(B)/polynomials.stamp | $(B)/tests
 	$(TEST_BUILD) -I$(B)/polynomials -o $@ $(filter %.c,$^) $(B)/polynomials/*.c $(LDFLAGS) $(MATH)
 
-$(B)/tests/%: tests/%.c tests/reference.c tests/reference.h tests/check.h tests/bounds.h library | $(B)/tests
+$(B)/tests/%: tests/%.c tests/reference.c $(wildcard tests/*.h) library | $(B)/tests
 	$(TEST_BUILD) -I$(B)/emitted -o $@ $(filter %.c,$^) $(LIB) $(LDFLAGS) $(MATH)
 
 test: $(PROGRAMS) $(B)/shapes $(B)/bench

@@ -21,14 +21,14 @@ enum { ITEMS = 1024, MAX_ROUNDS = 101, LANES = 16, TARGETS = 2 };
 
 typedef struct {
 	int f, a;                      /* operations per item on the FMA pipe and the adder */
-	ew_run *run;
-	ew_runf *runf;
+	ew_ring_run *run;
+	ew_ring_runf *runf;
 	double ns[MAX_ROUNDS], slots[MAX_ROUNDS];
 } Kernel;
 
 typedef struct { const char *name; Kernel kernel[TARGETS]; } Row;   /* portable, fma */
 
-static Row doubles[EW_RING_COUNT], floats[EW_RING_COUNT];
+static Row doubles[EW_RINGS_COUNT], floats[EW_RINGS_COUNT];
 static double x[ITEMS + 2], y[ITEMS + 2], sum[EW_MAX_ACCUMULATORS * LANES];
 static float xf[ITEMS + 2], yf[ITEMS + 2], sumf[EW_MAX_ACCUMULATORS * LANES];
 
@@ -102,7 +102,7 @@ static double time_kernel(const Kernel *kernel)
 
 static void run_round(Row *rows, int round)
 {
-	for (int id = 0; id < EW_RING_COUNT; ++id)
+	for (int id = 0; id < EW_RINGS_COUNT; ++id)
 		for (int t = 0; t < TARGETS; ++t) {
 			Kernel *kernel = &rows[id].kernel[t];
 			if (!kernel->run && !kernel->runf)
@@ -128,7 +128,7 @@ static double median(double *value, int count)
 static void print_table(const char *title, Row *rows, int rounds)
 {
 	printf("\n%-14s   fma: operations  ns/edge   slots  %% of FMA rate   portable: operations  ns/edge\n", title);
-	for (int id = 0; id < EW_RING_COUNT; ++id) {
+	for (int id = 0; id < EW_RINGS_COUNT; ++id) {
 		Kernel *portable = &rows[id].kernel[0], *fused = &rows[id].kernel[1];
 		const char *name = rows[id].name + strlen("EW_RING_");
 		double slots = median(fused->slots, rounds);

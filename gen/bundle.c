@@ -66,9 +66,7 @@ char *bundle_name(const char *name, const char *prefix)
 	if (!prefix)
 		return copy_string(name, strlen(name));
 	Text text = renamed(name, strlen(name), prefix);
-	char *copy = copy_string(text.data, text.size);
-	text_free(&text);
-	return copy;
+	return text_take(&text);
 }
 
 void bundle_rename(Files *files, const char *prefix)
@@ -161,7 +159,7 @@ Text bundle_depfile(const Files *outputs)
 	for (int i = 0; i < outputs->count; ++i) {
 		text_add(&text, "%s", i ? " \\\n " : "");
 		for (const char *p = outputs->file[i].name; *p; ++p)
-			text_add(&text, *p == ' ' || *p == '#' ? "\\%c" : *p == '$' ? "$%c" : "%c", *p);
+			text_add(&text, strchr(" #:%\\", *p) ? "\\%c" : *p == '$' ? "$%c" : "%c", *p);
 	}
 	text_add(&text, ":\n");
 	return text;

@@ -195,9 +195,7 @@ static char *expression(const Printer *printer, Ref ref, int top)
 		else
 			text_add(&text, "%c", *p);
 	}
-	char *copy = copy_string(text.data, text.size);
-	text_free(&text);
-	return copy;
+	return text_take(&text);
 }
 
 void emit_program(Text *text, const Program *program, const Style *style)

@@ -55,7 +55,7 @@ static const Entry rings[] = {
 	"REAL ew_area@(const REAL *x, const REAL *y, size_t n)" },
 	{ has_centroid,
 	"Centroid, computed about the first vertex. If the area is 0: EW_ZERO_AREA, and c is NaN. "
-	"Error: |c - exact| <= (B + |c - v| A) / (|area| - A) + u |c|, A and B the bounds of area and first moment about vertex v.",
+	"Error: |c - exact| <= (B + |c - v| A) / (|area| - A) + 4 u |c - v| + u |c|, A and B the bounds of area and first moment about vertex v.",
 	"int ew_centroid@(const REAL *x, const REAL *y, size_t n, REAL c[2])" },
 	{ has_centroid,
 	"Centroid and all moments about it; out[1] = out[2] = 0. Computed about the first vertex, then about the centroid, "

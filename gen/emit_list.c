@@ -78,9 +78,9 @@ static void add_ids(Text *text, const Kernels *kernels)
 	text_add(text, "\n\nenum {\n");
 	for (int i = 0; i < kernels->rings; ++i)
 		text_add(text, "\t%s,\n", ring_id(&kernels->ring[i]));
-	text_add(text, "\tEW_RING_COUNT,\n\tEW_MAX_ACCUMULATORS = %d,\n\tEW_MAX_OUTPUTS = %d\n};\n", accumulators, outputs);
+	text_add(text, "\tEW_RINGS_COUNT,\n\tEW_MAX_ACCUMULATORS = %d,\n\tEW_MAX_OUTPUTS = %d\n};\n", accumulators, outputs);
 	text_add(text, "\n/* X(id, window, accumulators, outputs, finish): for the ring driver; window counts vertices */\n"
-		"#define EW_RING_SHAPES(X)");
+		"#define EW_RINGS_SHAPES(X)");
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
 		text_add(text, " \\\n\tX(%s, %d, %d, %d, ew_ring_%s_finish)", ring_id(ring), ring->window, ring->accumulators,
@@ -138,12 +138,12 @@ static void add_types(Text *text, const Request *request)
 	for (int p = 0; p < precision_count; ++p) {
 		const char *real = precisions[p].real;
 		if (request->precisions & precisions[p].bit)
-			text_add(text, "typedef void ew_run%s(const %s *x, const %s *y, %s cx, size_t count, %s *sum);\n",
+			text_add(text, "typedef void ew_ring_run%s(const %s *x, const %s *y, %s cx, size_t count, %s *sum);\n",
 				precisions[p].suffix, real, real, real, real);
 	}
-	text_add(text, "typedef void ew_finish(const double *sum, double *out);\n\n"
-		"#define EW_DECLARE(id, window, accumulators, outputs, finish) ew_finish finish;\n"
-		"EW_RING_SHAPES(EW_DECLARE)\n#undef EW_DECLARE\n");
+	text_add(text, "typedef void ew_ring_finish(const double *sum, double *out);\n\n"
+		"#define EW_DECLARE(id, window, accumulators, outputs, finish) ew_ring_finish finish;\n"
+		"EW_RINGS_SHAPES(EW_DECLARE)\n#undef EW_DECLARE\n");
 	for (int p = 0; p < precision_count; ++p)
 		for (int t = 0; t < target_count; ++t) {
 			const Target *target = &targets[t];
@@ -151,7 +151,7 @@ static void add_types(Text *text, const Request *request)
 				continue;
 			if (target->guard)
 				text_add(text, "#if %s\n", target->guard);
-			text_add(text, "#define EW_DECLARE(id, kernel, f, a) ew_run%s kernel;\nEW_RINGS_%s_%s(EW_DECLARE)\n"
+			text_add(text, "#define EW_DECLARE(id, kernel, f, a) ew_ring_run%s kernel;\nEW_RINGS_%s_%s(EW_DECLARE)\n"
 				"#undef EW_DECLARE\n%s", precisions[p].suffix, upper(target->name),
 				upper(precisions[p].real), target->guard ? "#endif\n" : "");
 		}
@@ -189,9 +189,7 @@ static char *quoted(const char *text)
 	for (; *text; ++text)
 		text_add(&out, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
 	text_add(&out, "\"");
-	char *copy = copy_string(out.data, out.size);
-	text_free(&out);
-	return copy;
+	return text_take(&out);
 }
 
 static void add_edges(Text *text, const Kernels *kernels)

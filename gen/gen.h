@@ -28,10 +28,13 @@ char *format(const char *pattern, ...) __attribute__((format(printf, 1, 2)));   
 
 void text_add(Text *text, const char *pattern, ...) __attribute__((format(printf, 2, 3)));
 void text_append(Text *text, const char *data, size_t size);
+char *text_take(Text *text);                   /* copies it to the arena and frees it */
 void text_free(Text *text);
 uint64_t text_hash(const char *data, size_t size);   /* FNV-1a, 64 bits */
 
 enum { EXIT_DONE = 0, EXIT_DIFFERENT = 1, EXIT_USAGE = 2 };
+typedef char *Locate(const void *reader, const char *message);   /* the message with file, line, column, caret */
+void reading(Locate *locate, const void *reader);    /* NULL NULL: no longer */
 void fatal(int status, const char *pattern, ...) __attribute__((noreturn, format(printf, 2, 3)));   /* user's fault */
 void bug(const char *pattern, ...) __attribute__((noreturn, format(printf, 1, 2)));                 /* ours: abort */
 

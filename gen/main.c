@@ -10,7 +10,8 @@ typedef struct {
 	Request request;
 	Delivery delivery;
 	const char *single_header, *manifest, *depfile, *show, *format, *dump;
-	const char *emission;                        /* an option given that only makes sense for an emission */
+	const char *emission, *writing;              /* an option given that only makes sense for an emission; that writes */
+	unsigned seen;                               /* bits of the grammar options given */
 	int families, runtime, list;
 } Options;
 
@@ -81,7 +82,7 @@ static int read_switch(Options *o, const char *option)
 		if (strcmp(option, switches[i].name) == 0) {
 			*switches[i].place = switches[i].value;
 			if (i < 3)
-				o->emission = switches[i].name;
+				o->emission = o->writing = switches[i].name;
 			return 1;
 		}
 	return 0;
@@ -101,6 +102,8 @@ static int read_text(Options *o, const char *option, const char *value)
 				set_once(texts[i].place, option, value);
 			if (texts[i].emits)
 				o->emission = texts[i].name;
+			if (texts[i].emits && texts[i].place != &o->request.prefix)
+				o->writing = texts[i].name;
 			return 1;
 		}
 	return 0;
@@ -120,6 +123,10 @@ static int read_request(Options *o, const char *option, const char *value)
 	if (!value)
 		return 1;
 	o->emission = names[which];
+	int repeatable = which == 2 || which == 3;
+	if (o->seen & 1u << which && !repeatable)
+		fatal(EXIT_USAGE, "%s is given twice", option);
+	o->seen |= 1u << which;
 	switch (which) {
 	case 0: request->moments = spec_degree(value); break;
 	case 1: spec_list(option, value, FAMILIES, LENGTH(FAMILIES)); o->families = 1; break;
@@ -147,13 +154,12 @@ static Options read_options(char **argv)
 		const char *option = *argv, *equals = strncmp(option, "--", 2) == 0 ? strchr(option, '=') : NULL;
 		if (equals)
 			option = copy_string(option, (size_t)(equals - option));
-		if (strcmp(option, "--help") == 0)
-			print_and_exit(USAGE);
-		if (strcmp(option, "--version") == 0)
-			print_and_exit("gen " GEN_VERSION "\n");
+		int help = strcmp(option, "--help") == 0, version = strcmp(option, "--version") == 0;
 		int is_switch = read_switch(&o, option);
-		if (is_switch && equals)
+		if ((is_switch || help || version) && equals)
 			fatal(EXIT_USAGE, "%s takes no value", option);
+		if (help || version)
+			print_and_exit(help ? USAGE : "gen " GEN_VERSION "\n");
 		if (is_switch)
 			continue;
 		if (!read_text(&o, option, NULL) && !read_request(&o, option, NULL))
@@ -171,6 +177,11 @@ static void check_options(const Options *o)
 {
 	if ((o->show || o->list) && o->emission)
 		fatal(EXIT_USAGE, "%s emits nothing; leave out %s", o->show ? "--show" : "--list", o->emission);
+	if (o->show && o->list)
+		fatal(EXIT_USAGE, "--show and --list exclude each other");
+	if (o->dump && (o->writing || o->show || o->list))
+		fatal(EXIT_USAGE, "-d prints and writes nothing; leave out %s",
+			o->writing ? o->writing : o->show ? "--show" : "--list");
 	if (o->format && !o->show)
 		fatal(EXIT_USAGE, "--format goes with --show");
 	if (o->single_header && (!o->runtime || o->delivery.out))
@@ -202,10 +213,11 @@ static void no_progress(int done, int of)
 	(void)of;
 }
 
-static void print_text(const Text *text)
+static void print_text(Text *text)
 {
 	if (fwrite(text->data, 1, text->size, stdout) != text->size || fflush(stdout) != 0)
 		fatal(EXIT_DIFFERENT, "cannot write to standard output");
+	text_free(text);
 }
 
 static void print_words(const char *title, const char *const *words, int count)

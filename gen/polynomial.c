@@ -182,35 +182,34 @@ Poly poly_abs(Poly a)
 	return result;
 }
 
-/* Frees what was allocated since the mark, but for this polynomial. */
-static Poly keep_only(Mark mark, Poly a)
+static Poly substitute_term(Term term, const int *vars, const Poly *by, int count)
 {
-	Text copy = { 0 };
-	if (a.count)
-		text_append(&copy, (const char *)a.term, (size_t)a.count * sizeof(Term));
-	arena_release(mark);
-	Poly kept = { a.count, allocate((size_t)a.count * sizeof(Term)) };
-	if (a.count)
-		memcpy(kept.term, copy.data, copy.size);
-	text_free(&copy);
-	return kept;
+	Poly product = poly_const(term.coef);
+	for (int v = 0; v < count; ++v) {
+		int power = mono_power(term.mono, vars[v]);
+		term.mono -= mono_var(vars[v], power);
+		product = poly_mul(product, poly_pow(by[v], power));
+	}
+	return poly_mul(product, poly_mono(rat(1, 1), term.mono));
 }
 
+/* Intermediate polynomials are freed term by term: they are many and large. */
 Poly poly_substitute(Poly a, const int *vars, const Poly *by, int count)
 {
-	Mark mark = arena_mark();
-	Poly sum = poly_zero();
+	Text terms = { 0 };
 	for (int i = 0; i < a.count; ++i) {
-		Mono rest = a.term[i].mono;
-		Poly product = poly_const(a.term[i].coef);
-		for (int v = 0; v < count; ++v) {
-			int power = mono_power(rest, vars[v]);
-			rest -= mono_var(vars[v], power);
-			product = poly_mul(product, poly_pow(by[v], power));
-		}
-		sum = keep_only(mark, poly_add(sum, poly_mul(product, poly_mono(rat(1, 1), rest))));
+		Mark mark = arena_mark();
+		Poly product = substitute_term(a.term[i], vars, by, count);
+		if (product.count)
+			text_append(&terms, (const char *)product.term, (size_t)product.count * sizeof(Term));
+		arena_release(mark);
 	}
-	return sum;
+	Term *all = allocate(terms.size);
+	if (terms.size)
+		memcpy(all, terms.data, terms.size);
+	int total = (int)(terms.size / sizeof(Term));
+	text_free(&terms);
+	return poly_collect(all, total);
 }
 
 int poly_equal(Poly a, Poly b)
@@ -269,7 +268,5 @@ char *poly_text(Poly a, const char *times)
 		text_add(&text, "%s%s", sign, unit ? "" : rat_text(rat_abs(coef)));
 		mono_text(&text, a.term[i].mono, times, unit);
 	}
-	char *copy = copy_string(text.data, text.size);
-	text_free(&text);
-	return copy;
+	return text_take(&text);
 }

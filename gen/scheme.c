@@ -11,8 +11,10 @@
  *   even-power  in a = p0 + p1 and e = p1 - p0 only terms even in e survive the integration
  *   shared      moments of degree 2 that reuse the products x0 y1, x1 y0 and the sums p0 + p1
  *   recurrence  h_mn = x0 h_(m-1,n) + y0 h_(m,n-1) + C(m+n,n) x1^m y1^n, times x0 y1 - x1 y0 from the start
- *   vertex      area alone: 1/2 (x_i - cx) (y_(i+1) - y_(i-1)), one product per vertex */
+ *   vertex      constants alone: 1/2 (x_i - cx) (y_(i+1) - y_(i-1)), one product per vertex */
 #include "gen.h"
+
+#include <stdlib.h>
 
 enum { FMA_WEIGHT = 4, ADD_WEIGHT = 1 };   /* additions have a pipe of their own on most machines */
 enum { FEW_TERMS = 24 };                   /* try normalisations of a density up to this size */
@@ -168,20 +170,26 @@ static Poly next_group(Poly sorted, int *from, const int *vars)
 	return group;
 }
 
-/* Terms with equal x part, or y part, next to each other; the rest in descending order. */
+typedef struct { Mono part; Term term; } Keyed;
+
+static int by_part(const void *left, const void *right)
+{
+	const Keyed *a = left, *b = right;
+	if (a->part != b->part)
+		return a->part < b->part ? 1 : -1;
+	return (a->term.mono < b->term.mono) - (a->term.mono > b->term.mono);
+}
+
+/* Terms with equal x part, or y part, next to each other; parts and terms in descending order. */
 static Poly group_by(Poly a, const int *vars)
 {
-	Poly sorted = { 0, allocate((size_t)a.count * sizeof(Term)) };
-	unsigned char *taken = allocate((size_t)a.count);
-	for (int i = 0; i < a.count; ++i) {
-		Mono part = mono_keep(a.term[i].mono, vars, 2);
-		for (int j = i; j < a.count; ++j) {
-			if (taken[j] || mono_keep(a.term[j].mono, vars, 2) != part)
-				continue;
-			taken[j] = 1;
-			sorted.term[sorted.count++] = a.term[j];
-		}
-	}
+	Poly sorted = { a.count, allocate((size_t)a.count * sizeof(Term)) };
+	Keyed *keyed = allocate((size_t)a.count * sizeof *keyed);
+	for (int i = 0; i < a.count; ++i)
+		keyed[i] = (Keyed){ mono_keep(a.term[i].mono, vars, 2), a.term[i] };
+	qsort(keyed, (size_t)a.count, sizeof *keyed, by_part);
+	for (int i = 0; i < a.count; ++i)
+		sorted.term[i] = keyed[i].term;
 	return sorted;
 }
 
@@ -359,14 +367,14 @@ static void finish_next(Dag *dag, int m, int n, Rat factor)
 	*form = poly_add(*form, poly_mono(factor, mono_accumulator(dag->outs)));
 }
 
-static Dag *vertex_form(void)
+static Dag *vertex_form(Rat value)
 {
 	Dag *dag = dag_new("vertex");
 	dag->window = 3;
 	Ref width = difference_of(dag, VAR_CX, VAR_X1, "width");
 	Ref height = difference_of(dag, VAR_Y0, VAR_Y2, "height");
 	dag_accumulate(dag, dag_mul(dag, width, height));
-	finish_one(dag, rat(1, 2));
+	finish_one(dag, rat_mul(value, rat(1, 2)));
 	return dag;
 }
 
@@ -577,7 +585,7 @@ static Dag *best_moments(const Integral *want, int degree)
 	Dag *candidate[4];
 	int count = 0, best = 0;
 	if (degree == 0)
-		candidate[count++] = vertex_form();
+		candidate[count++] = vertex_form(rat(1, 1));
 	if (degree == 2)
 		candidate[count++] = shared();
 	if (degree <= 4)
@@ -597,7 +605,7 @@ Dag *scheme_ring(const Integral *want, int moments)
 	if (moments >= 0)
 		return best_moments(want, moments);
 	if (want->density.count == 1 && want->density.term[0].mono == 0)
-		return single(want->density, MATRIX_X, want->density.term[0].coef);
+		return vertex_form(rat_mul(rat(2, 1), want->density.term[0].coef));
 	return best_single(want);
 }
 

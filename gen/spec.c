@@ -12,11 +12,12 @@
 #include <string.h>
 
 enum { MAX_NESTING = 100, MAX_NAME = 40, MAX_DIGITS = 30 };
+enum { BEFORE = 60, BEHIND = 30 };                   /* characters shown around an error */
 
 typedef struct { const char *what, *text; size_t at; int nesting; } Reader;
 
-static void syntax_error(const Reader *reader, size_t at, const char *message) __attribute__((noreturn));
-static void syntax_error(const Reader *reader, size_t at, const char *message)
+/* The message, the part of the line around the spot, and a caret under it. */
+static char *locate_at(const Reader *reader, size_t at, const char *message)
 {
 	int line = 1;
 	size_t start = 0, end = at;
@@ -25,14 +26,27 @@ static void syntax_error(const Reader *reader, size_t at, const char *message)
 			++line;
 			start = i + 1;
 		}
-	while (reader->text[end] && reader->text[end] != '\n')
-		++end;
 	int column = (int)(at - start) + 1;
-	char *margin = copy_string(reader->text + start, at - start);
+	size_t shown = at - start > BEFORE ? at - BEFORE : start;
+	while (end - at < BEHIND && reader->text[end] && reader->text[end] != '\n')
+		++end;
+	char *margin = copy_string(reader->text + shown, at - shown);
 	for (char *p = margin; *p; ++p)
 		*p = *p == '\t' ? '\t' : ' ';
-	fatal(EXIT_USAGE, "%s: line %d, column %d: %s\n  %.*s\n  %s^", reader->what, line, column, message,
-		(int)(end - start), reader->text + start, margin);
+	return format("%s: line %d, column %d: %s\n  %.*s\n  %s^", reader->what, line, column, message,
+		(int)(end - shown), reader->text + shown, margin);
+}
+
+static char *locate(const void *reader, const char *message)
+{
+	return locate_at(reader, ((const Reader *)reader)->at, message);
+}
+
+static void syntax_error(const Reader *reader, size_t at, const char *message) __attribute__((noreturn));
+static void syntax_error(const Reader *reader, size_t at, const char *message)
+{
+	reading(NULL, NULL);
+	fatal(EXIT_USAGE, "%s", locate_at(reader, at, message));
 }
 
 static int peek(Reader *reader)
@@ -104,10 +118,14 @@ static Poly read_base(Reader *reader)
 	size_t start = reader->at;
 	if (is_digit(c))
 		return poly_const(read_number(reader));
-	if ((c == 'x' || c == 'y') && !strchr("xy", reader->text[start + 1] ? reader->text[start + 1] : ' ')) {
+	size_t letters = strspn(reader->text + start, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_");
+	if (letters == 1 && (c == 'x' || c == 'y')) {
 		++reader->at;
 		return poly_var(c == 'x' ? VAR_X : VAR_Y);
 	}
+	if (letters)
+		syntax_error(reader, start, format("unknown name '%.*s'; there are x and y, and products need a *",
+			letters > MAX_NAME ? MAX_NAME : (int)letters, reader->text + start));
 	if (c != '(')
 		syntax_error(reader, start, "expected a number, x, y or '('");
 	if (++reader->nesting > MAX_NESTING)
@@ -184,7 +202,12 @@ static const char *const LIBRARY =
 	" area area_compensated area_rings below central_moments centroid centroid_rings closure coverage cubic cubic_area "
 	"cubic_moments conic conic_area conic_moments distance is_closed line line_area moment moments moments_about "
 	"moments_bounded moments_rings moments_xy path path_moments quad quad_area quad_moments radius raster raster_path "
-	"raster_u8 target_name targets translate_moments use_target version filter kernel kernels ring rings ";
+	"raster_u8 target_name targets translate_moments use_target version ";
+/* NAME.h must not hide a header of the standard library or of a compiler. */
+static const char *const HEADERS =
+	" assert complex cpuid ctype errno fenv float immintrin intrin inttypes iso646 limits locale math setjmp signal "
+	"stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar unistd "
+	"wchar wctype ";
 
 static int is_listed(const char *list, const char *name)
 {
@@ -205,6 +228,8 @@ static void check_identifier(const char *option, const char *name)
 void spec_prefix(const char *text)
 {
 	check_identifier("--prefix", text);
+	if (is_listed(HEADERS, text))
+		fatal(EXIT_USAGE, "--prefix: %s.h is a standard header; choose another name", text);
 }
 
 /* Reads digits into *value; -1 and more than MAX_DEGREE both fail. */
@@ -261,14 +286,16 @@ Integrand spec_polynomial(const char *text)
 	check_identifier("--polynomial", name);
 	size_t size = strlen(name);
 	char *stem = copy_string(name, name[size - 1] == 'f' ? size - 1 : size);
-	static const char *const families[] = { "line_", "quad_", "conic_", "cubic_", "ring_", "filter_" };
+	static const char *const families[] = { "line_", "quad_", "conic_", "cubic_", "ring_", "filter_", "cpu_" };
 	int taken = is_listed(LIBRARY, name) || is_listed(LIBRARY, stem) || is_monomial_name(name);
 	for (int i = 0; i < LENGTH(families); ++i)
 		taken |= strncmp(name, families[i], strlen(families[i])) == 0;
 	if (taken)
 		fatal(EXIT_USAGE, "--polynomial: '%s' is the name of a function of the library; choose another", name);
 	Reader reader = { format("--polynomial %s", name), equals + 1, 0, 0 };
+	reading(locate, &reader);
 	Poly integrand = read_sum(&reader);
+	reading(NULL, NULL);
 	if (peek(&reader))
 		syntax_error(&reader, reader.at, "expected an operator or the end");
 	if (integrand.count == 0)
@@ -289,7 +316,7 @@ unsigned spec_list(const char *option, const char *text, const char *const *word
 			Text known = { 0 };
 			for (int i = 0; i < count; ++i)
 				text_add(&known, "%s%s", i ? ", " : "", words[i]);
-			fatal(EXIT_USAGE, "%s: unknown word '%.*s'; known: %s", option, (int)size, p, known.data);
+			fatal(EXIT_USAGE, "%s: unknown word '%.*s'; known: %s", option, (int)size, p, text_take(&known));
 		}
 		bits |= 1u << found;
 		p += size;
@@ -333,9 +360,7 @@ static const char *canonical_command(const Request *request)
 		text_add(&text, " --targets portable");
 	if (request->prefix)
 		text_add(&text, " --prefix %s", request->prefix);
-	char *command = copy_string(text.data, text.size);
-	text_free(&text);
-	return command;
+	return text_take(&text);
 }
 
 void spec_complete(Request *request)

@@ -1,11 +1,14 @@
 /* util.c - memory, text and the two ways to stop.
  *
  * One arena serves the whole process: passes allocate freely and a caller that loops over kernels takes a mark
- * and releases it. Its chunks hang on one list, so that leak checkers see them. It is the only mutable state of
- * gen that outlives a function. Text lives outside the arena because it outlasts the marks.
+ * and releases it. Its chunks hang on one list, so that leak checkers see them. Text lives outside the arena because
+ * it outlasts the marks.
  *
- * fatal() is the user's mistake: a message that says what to do, exit status as given, nothing written.
- * bug() is ours: a failed proof or a broken invariant; it aborts. */
+ * fatal() is the user's mistake: a message that says what to do, exit status as given, nothing written. While a text
+ * of the user's is being read, the reader says where it is, so that an overflow deep inside has a line and a column too.
+ * bug() is ours: a failed proof or a broken invariant; it aborts.
+ *
+ * The arena and the place being read are the only mutable state of gen that outlives a function. */
 #include "gen.h"
 
 #include <stdarg.h>
@@ -15,10 +18,12 @@
 
 enum { CHUNK = 1 << 20, CHUNKS = 1 << 14 };
 static struct { char *data[CHUNKS]; size_t room[CHUNKS]; size_t count, used; } arena;
+static struct { Locate *locate; const void *reader; } place;
 
 static void out_of_memory(void)
 {
-	fatal(EXIT_DIFFERENT, "out of memory");
+	fputs("gen: out of memory\n", stderr);
+	exit(EXIT_DIFFERENT);
 }
 
 static void arena_grow(size_t size)
@@ -63,15 +68,22 @@ char *copy_string(const char *text, size_t size)
 	return copy;
 }
 
+static char *format_list(const char *pattern, va_list args)
+{
+	va_list again;
+	va_copy(again, args);
+	int size = vsnprintf(NULL, 0, pattern, again);
+	va_end(again);
+	char *result = allocate((size_t)size + 1);
+	vsnprintf(result, (size_t)size + 1, pattern, args);
+	return result;
+}
+
 char *format(const char *pattern, ...)
 {
 	va_list args;
 	va_start(args, pattern);
-	int size = vsnprintf(NULL, 0, pattern, args);
-	va_end(args);
-	char *result = allocate((size_t)size + 1);
-	va_start(args, pattern);
-	vsnprintf(result, (size_t)size + 1, pattern, args);
+	char *result = format_list(pattern, args);
 	va_end(args);
 	return result;
 }
@@ -107,6 +119,13 @@ void text_add(Text *text, const char *pattern, ...)
 	text->size += (size_t)size;
 }
 
+char *text_take(Text *text)
+{
+	char *copy = copy_string(text->size ? text->data : "", text->size);
+	text_free(text);
+	return copy;
+}
+
 void text_free(Text *text)
 {
 	free(text->data);
@@ -121,26 +140,32 @@ uint64_t text_hash(const char *data, size_t size)
 	return hash;
 }
 
+void reading(Locate *locate, const void *reader)
+{
+	place.locate = locate;
+	place.reader = reader;
+}
+
 void fatal(int status, const char *pattern, ...)
 {
 	va_list args;
-	fflush(stdout);
-	fputs("gen: ", stderr);
+	Locate *locate = place.locate;
+	place.locate = NULL;
 	va_start(args, pattern);
-	vfprintf(stderr, pattern, args);
+	const char *message = format_list(pattern, args);
 	va_end(args);
-	fputc('\n', stderr);
+	fflush(stdout);
+	fprintf(stderr, "gen: %s\n", locate ? locate(place.reader, message) : message);
 	exit(status);
 }
 
 void bug(const char *pattern, ...)
 {
 	va_list args;
-	fflush(stdout);
-	fputs("gen: internal error, nothing was written: ", stderr);
 	va_start(args, pattern);
-	vfprintf(stderr, pattern, args);
+	const char *message = format_list(pattern, args);
 	va_end(args);
-	fputc('\n', stderr);
+	fflush(stdout);
+	fprintf(stderr, "gen: internal error, nothing was written: %s\n", message);
 	abort();
 }

@@ -92,8 +92,8 @@ double ew_area(const double *x, const double *y, size_t n);
 float ew_areaf(const float *x, const float *y, size_t n);
 
 /* Centroid, computed about the first vertex. If the area is 0: EW_ZERO_AREA, and c is NaN.
- * Error: |c - exact| <= (B + |c - v| A) / (|area| - A) + u |c|, A and B the bounds of area and
- * first moment about vertex v. */
+ * Error: |c - exact| <= (B + |c - v| A) / (|area| - A) + 4 u |c - v| + u |c|, A and B the bounds
+ * of area and first moment about vertex v. */
 int ew_centroid(const double *x, const double *y, size_t n, double c[2]);
 int ew_centroidf(const float *x, const float *y, size_t n, float c[2]);
 

@@ -13,23 +13,20 @@
 
 #include <math.h>
 
-/* area; scheme matrix.
- * Cost per item: 2 mul or fma, 2 add; 1 accumulators, 4 values alive, depth 3. */
+/* area; scheme vertex.
+ * Cost per item: 1 mul or fma, 2 add; 1 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_FMA void ew_ring_x0y0_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
-	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
-			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
-			const double t0 = x0 * y1;
-			const double t1 = x1 * y0;
-			const double s = t0 - t1;
-			acc0 = acc0 + s;
+			const double y2 = y[i + 2];
+			const double width = x1 - cx;
+			const double height = y2 - y0;
+			acc0 = fma(width, height, acc0);
 		}
 		sum[lane] = acc0;
 	}
@@ -512,7 +509,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y1_fma(
 }
 
 /* integral of x^3 y^2; scheme even-power.
- * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 11 values alive, depth 7. */
+ * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_FMA void ew_ring_x3y2_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -537,15 +534,15 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y2_fma(
 			const double t5 = b * b;
 			const double t6 = a * t5;
 			const double t7 = t4 * t6;
-			const double t8 = 0x1.5555555555555p-2 /* 1/3 */ * t2;
-			const double t9 = fma(0x1.3333333333333p-1 /* 3/5 */, t3, t8);
-			const double t10 = f * f;
-			const double t11 = a * t10;
+			const double t8 = 2.0 * t2;
+			const double t9 = fma(0x1.999999999999ap-2 /* 2/5 */, t3, t8);
+			const double t10 = b * f;
+			const double t11 = e * t10;
 			const double t12 = fma(t9, t11, t7);
-			const double t13 = 2.0 * t2;
-			const double t14 = fma(0x1.999999999999ap-2 /* 2/5 */, t3, t13);
-			const double t15 = b * f;
-			const double t16 = e * t15;
+			const double t13 = 0x1.5555555555555p-2 /* 1/3 */ * t2;
+			const double t14 = fma(0x1.3333333333333p-1 /* 3/5 */, t3, t13);
+			const double t15 = f * f;
+			const double t16 = a * t15;
 			const double t17 = fma(t14, t16, t12);
 			acc0 = fma(s, t17, acc0);
 		}
@@ -769,16 +766,16 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y2_fma(
 			const double t9 = fma(0x1.999999999999ap-3 /* 1/5 */, t8, t6);
 			const double t10 = b * b;
 			const double t11 = t9 * t10;
-			const double t12 = 0x1.5555555555555p-2 /* 1/3 */ * t3;
-			const double t13 = fma(0x1.3333333333333p0 /* 6/5 */, t5, t12);
-			const double t14 = fma(0x1.2492492492492p-3 /* 1/7 */, t8, t13);
-			const double t15 = f * f;
-			const double t16 = fma(t14, t15, t11);
-			const double t17 = 0x1.5555555555555p1 /* 8/3 */ * t2;
-			const double t18 = fma(0x1.999999999999ap0 /* 8/5 */, t7, t17);
-			const double t19 = b * f;
-			const double t20 = t4 * t19;
-			const double t21 = fma(t18, t20, t16);
+			const double t12 = 0x1.5555555555555p1 /* 8/3 */ * t2;
+			const double t13 = fma(0x1.999999999999ap0 /* 8/5 */, t7, t12);
+			const double t14 = b * f;
+			const double t15 = t4 * t14;
+			const double t16 = fma(t13, t15, t11);
+			const double t17 = 0x1.5555555555555p-2 /* 1/3 */ * t3;
+			const double t18 = fma(0x1.3333333333333p0 /* 6/5 */, t5, t17);
+			const double t19 = fma(0x1.2492492492492p-3 /* 1/7 */, t8, t18);
+			const double t20 = f * f;
+			const double t21 = fma(t19, t20, t16);
 			acc0 = fma(s, t21, acc0);
 		}
 		sum[lane] = acc0;
@@ -1036,7 +1033,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y1_fma(
 }
 
 /* integral of x^5 y^2; scheme even-power.
- * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
+ * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 11 values alive, depth 9. */
 EW_ATTRIBUTE_FMA void ew_ring_x5y2_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1066,17 +1063,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y2_fma(
 			const double t10 = b * b;
 			const double t11 = a * t10;
 			const double t12 = t9 * t11;
-			const double t13 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
-			const double t14 = fma(0x1.3333333333333p-1 /* 3/5 */, t5, t13);
-			const double t15 = fma(0x1.b6db6db6db6dbp-3 /* 3/14 */, t8, t14);
-			const double t16 = f * f;
-			const double t17 = a * t16;
-			const double t18 = fma(t15, t17, t12);
-			const double t19 = fma(0x1.3333333333333p0 /* 6/5 */, t5, t3);
-			const double t20 = fma(0x1.5f15f15f15f16p-4 /* 3/35 */, t8, t19);
-			const double t21 = b * f;
-			const double t22 = e * t21;
-			const double t23 = fma(t20, t22, t18);
+			const double t13 = fma(0x1.3333333333333p0 /* 6/5 */, t5, t3);
+			const double t14 = fma(0x1.5f15f15f15f16p-4 /* 3/35 */, t8, t13);
+			const double t15 = b * f;
+			const double t16 = e * t15;
+			const double t17 = fma(t14, t16, t12);
+			const double t18 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
+			const double t19 = fma(0x1.3333333333333p-1 /* 3/5 */, t5, t18);
+			const double t20 = fma(0x1.b6db6db6db6dbp-3 /* 3/14 */, t8, t19);
+			const double t21 = f * f;
+			const double t22 = a * t21;
+			const double t23 = fma(t20, t22, t17);
 			acc0 = fma(s, t23, acc0);
 		}
 		sum[lane] = acc0;
@@ -1084,7 +1081,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y2_fma(
 }
 
 /* integral of x^4 y^3; scheme even-power.
- * Cost per item: 30 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 10. */
+ * Cost per item: 30 mul or fma, 5 add; 1 accumulators, 13 values alive, depth 10. */
 EW_ATTRIBUTE_FMA void ew_ring_x4y3_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1114,16 +1111,16 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y3_fma(
 			const double t10 = b * b;
 			const double t11 = b * t10;
 			const double t12 = t9 * t11;
-			const double t13 = fma(0x1.ccccccccccccdp1 /* 18/5 */, t5, t3);
-			const double t14 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t13);
+			const double t13 = 4.0 * t2;
+			const double t14 = fma(0x1.3333333333333p1 /* 12/5 */, t7, t13);
 			const double t15 = b * f;
-			const double t16 = f * t15;
-			const double t17 = fma(t14, t16, t12);
-			const double t18 = 4.0 * t2;
-			const double t19 = fma(0x1.3333333333333p1 /* 12/5 */, t7, t18);
-			const double t20 = b * t15;
-			const double t21 = t4 * t20;
-			const double t22 = fma(t19, t21, t17);
+			const double t16 = b * t15;
+			const double t17 = t4 * t16;
+			const double t18 = fma(t14, t17, t12);
+			const double t19 = fma(0x1.ccccccccccccdp1 /* 18/5 */, t5, t3);
+			const double t20 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t19);
+			const double t21 = f * t15;
+			const double t22 = fma(t20, t21, t18);
 			const double t23 = 0x1.999999999999ap-1 /* 4/5 */ * t2;
 			const double t24 = fma(0x1.2492492492492p-1 /* 4/7 */, t7, t23);
 			const double t25 = f * f;
@@ -1416,38 +1413,38 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y2_fma(
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
 			const double a = x0 + x1;
-			const double t0 = a * a;
-			const double t1 = a * t0;
-			const double t2 = t1 * t1;
 			const double e = x1 - x0;
-			const double t3 = a * e;
-			const double t4 = t3 * t3;
-			const double t5 = t0 * t4;
-			const double t6 = fma(0x1.c71c71c71c71cp-4 /* 1/9 */, t2, t5);
-			const double t7 = e * e;
-			const double t8 = t4 * t7;
-			const double t9 = fma(0x1.6db6db6db6db7p-1 /* 5/7 */, t8, t6);
-			const double t10 = e * t7;
+			const double t0 = a * e;
+			const double t1 = t0 * t0;
+			const double t2 = a * a;
+			const double t3 = t2 * t2;
+			const double t4 = 0x1.5555555555555p0 /* 4/3 */ * t3;
+			const double t5 = fma(0x1.5555555555555p1 /* 8/3 */, t1, t4);
+			const double t6 = e * e;
+			const double t7 = t6 * t6;
+			const double t8 = fma(0x1.2492492492492p-1 /* 4/7 */, t7, t5);
+			const double t9 = t2 * t1;
+			const double t10 = a * t2;
 			const double t11 = t10 * t10;
-			const double t12 = fma(0x1.2f684bda12f68p-5 /* 1/27 */, t11, t9);
-			const double t13 = 0x1.5555555555555p-2 /* 1/3 */ * t2;
-			const double t14 = fma(0x1.aaaaaaaaaaaabp0 /* 5/3 */, t5, t13);
-			const double t15 = t14 + t8;
-			const double t16 = fma(0x1.8618618618618p-5 /* 1/21 */, t11, t15);
+			const double t12 = 0x1.5555555555555p-2 /* 1/3 */ * t11;
+			const double t13 = fma(0x1.aaaaaaaaaaaabp0 /* 5/3 */, t9, t12);
+			const double t14 = t1 * t6;
+			const double t15 = t13 + t14;
+			const double t16 = e * t6;
+			const double t17 = t16 * t16;
+			const double t18 = fma(0x1.8618618618618p-5 /* 1/21 */, t17, t15);
 			const double b = y0 + y1;
-			const double t17 = b * b;
-			const double t18 = t16 * t17;
+			const double t19 = b * b;
+			const double t20 = t18 * t19;
 			const double f = y1 - y0;
-			const double t19 = f * f;
-			const double t20 = fma(t12, t19, t18);
-			const double t21 = t0 * t0;
-			const double t22 = 0x1.5555555555555p0 /* 4/3 */ * t21;
-			const double t23 = fma(0x1.5555555555555p1 /* 8/3 */, t4, t22);
-			const double t24 = t7 * t7;
-			const double t25 = fma(0x1.2492492492492p-1 /* 4/7 */, t24, t23);
-			const double t26 = b * f;
-			const double t27 = t3 * t26;
-			const double t28 = fma(t25, t27, t20);
+			const double t21 = b * f;
+			const double t22 = t0 * t21;
+			const double t23 = fma(t8, t22, t20);
+			const double t24 = fma(0x1.c71c71c71c71cp-4 /* 1/9 */, t11, t9);
+			const double t25 = fma(0x1.6db6db6db6db7p-1 /* 5/7 */, t14, t24);
+			const double t26 = fma(0x1.2f684bda12f68p-5 /* 1/27 */, t17, t25);
+			const double t27 = f * f;
+			const double t28 = fma(t26, t27, t23);
 			const double t29 = x0 * y1;
 			const double t30 = x1 * y0;
 			const double s = t29 - t30;
@@ -1458,7 +1455,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y2_fma(
 }
 
 /* integral of x^5 y^3; scheme even-power.
- * Cost per item: 31 mul or fma, 7 add; 1 accumulators, 14 values alive, depth 10. */
+ * Cost per item: 31 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 10. */
 EW_ATTRIBUTE_FMA void ew_ring_x5y3_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1490,16 +1487,16 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y3_fma(
 			const double t12 = a * t11;
 			const double t13 = t9 * t12;
 			const double t14 = 6.0 * t5;
-			const double t15 = t3 + t14;
-			const double t16 = fma(0x1.1249249249249p1 /* 15/7 */, t8, t15);
+			const double t15 = fma(5.0, t3, t14);
+			const double t16 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t15);
 			const double t17 = b * f;
-			const double t18 = f * t17;
-			const double t19 = a * t18;
+			const double t18 = b * t17;
+			const double t19 = e * t18;
 			const double t20 = fma(t16, t19, t13);
-			const double t21 = fma(5.0, t3, t14);
-			const double t22 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t21);
-			const double t23 = b * t17;
-			const double t24 = e * t23;
+			const double t21 = t3 + t14;
+			const double t22 = fma(0x1.1249249249249p1 /* 15/7 */, t8, t21);
+			const double t23 = f * t17;
+			const double t24 = a * t23;
 			const double t25 = fma(t22, t24, t20);
 			const double t26 = fma(0x1.6db6db6db6db7p0 /* 10/7 */, t5, t3);
 			const double t27 = fma(0x1.c71c71c71c71cp-4 /* 1/9 */, t8, t26);
@@ -1766,5 +1763,5 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y8_fma(
 }
 
 #else
-typedef int ew_not_empty;
+typedef int ew_ring_not_built;
 #endif

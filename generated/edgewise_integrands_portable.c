@@ -9,23 +9,21 @@
 #include "edgewise.h"
 #include "edgewise_kernels.h"
 
-/* area; scheme matrix.
- * Cost per item: 2 mul, 2 add; 1 accumulators, 4 values alive, depth 3. */
+/* area; scheme vertex.
+ * Cost per item: 1 mul, 3 add; 1 accumulators, 4 values alive, depth 3. */
 void ew_ring_x0y0_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
-	(void)cx;
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 8) {
-			const double x0 = x[i];
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
-			const double t0 = x0 * y1;
-			const double t1 = x1 * y0;
-			const double s = t0 - t1;
-			acc0 = acc0 + s;
+			const double y2 = y[i + 2];
+			const double width = x1 - cx;
+			const double height = y2 - y0;
+			const double t0 = width * height;
+			acc0 = acc0 + t0;
 		}
 		sum[lane] = acc0;
 	}
@@ -582,18 +580,18 @@ void ew_ring_x3y2_portable(
 			const double t5 = b * b;
 			const double t6 = a * t5;
 			const double t7 = t4 * t6;
-			const double t8 = 0x1.5555555555555p-2 /* 1/3 */ * t2;
-			const double t9 = 0x1.3333333333333p-1 /* 3/5 */ * t3;
+			const double t8 = 2.0 * t2;
+			const double t9 = 0x1.999999999999ap-2 /* 2/5 */ * t3;
 			const double t10 = t8 + t9;
-			const double t11 = f * f;
-			const double t12 = a * t11;
+			const double t11 = b * f;
+			const double t12 = e * t11;
 			const double t13 = t10 * t12;
 			const double t14 = t7 + t13;
-			const double t15 = 2.0 * t2;
-			const double t16 = 0x1.999999999999ap-2 /* 2/5 */ * t3;
+			const double t15 = 0x1.5555555555555p-2 /* 1/3 */ * t2;
+			const double t16 = 0x1.3333333333333p-1 /* 3/5 */ * t3;
 			const double t17 = t15 + t16;
-			const double t18 = b * f;
-			const double t19 = e * t18;
+			const double t18 = f * f;
+			const double t19 = a * t18;
 			const double t20 = t17 * t19;
 			const double t21 = t14 + t20;
 			const double t22 = s * t21;
@@ -847,21 +845,21 @@ void ew_ring_x4y2_portable(
 			const double t11 = t7 + t10;
 			const double t12 = b * b;
 			const double t13 = t11 * t12;
-			const double t14 = 0x1.5555555555555p-2 /* 1/3 */ * t3;
-			const double t15 = 0x1.3333333333333p0 /* 6/5 */ * t5;
+			const double t14 = 0x1.5555555555555p1 /* 8/3 */ * t2;
+			const double t15 = 0x1.999999999999ap0 /* 8/5 */ * t8;
 			const double t16 = t14 + t15;
-			const double t17 = 0x1.2492492492492p-3 /* 1/7 */ * t9;
-			const double t18 = t16 + t17;
-			const double t19 = f * f;
-			const double t20 = t18 * t19;
-			const double t21 = t13 + t20;
-			const double t22 = 0x1.5555555555555p1 /* 8/3 */ * t2;
-			const double t23 = 0x1.999999999999ap0 /* 8/5 */ * t8;
-			const double t24 = t22 + t23;
-			const double t25 = b * f;
-			const double t26 = t4 * t25;
-			const double t27 = t24 * t26;
-			const double t28 = t21 + t27;
+			const double t17 = b * f;
+			const double t18 = t4 * t17;
+			const double t19 = t16 * t18;
+			const double t20 = t13 + t19;
+			const double t21 = 0x1.5555555555555p-2 /* 1/3 */ * t3;
+			const double t22 = 0x1.3333333333333p0 /* 6/5 */ * t5;
+			const double t23 = t21 + t22;
+			const double t24 = 0x1.2492492492492p-3 /* 1/7 */ * t9;
+			const double t25 = t23 + t24;
+			const double t26 = f * f;
+			const double t27 = t25 * t26;
+			const double t28 = t20 + t27;
 			const double t29 = s * t28;
 			acc0 = acc0 + t29;
 		}
@@ -1193,23 +1191,23 @@ void ew_ring_x5y2_portable(
 			const double t12 = b * b;
 			const double t13 = a * t12;
 			const double t14 = t11 * t13;
-			const double t15 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
-			const double t16 = 0x1.3333333333333p-1 /* 3/5 */ * t6;
-			const double t17 = t15 + t16;
-			const double t18 = 0x1.b6db6db6db6dbp-3 /* 3/14 */ * t9;
-			const double t19 = t17 + t18;
-			const double t20 = f * f;
-			const double t21 = a * t20;
-			const double t22 = t19 * t21;
-			const double t23 = t14 + t22;
-			const double t24 = 0x1.3333333333333p0 /* 6/5 */ * t6;
-			const double t25 = t3 + t24;
-			const double t26 = 0x1.5f15f15f15f16p-4 /* 3/35 */ * t9;
+			const double t15 = 0x1.3333333333333p0 /* 6/5 */ * t6;
+			const double t16 = t3 + t15;
+			const double t17 = 0x1.5f15f15f15f16p-4 /* 3/35 */ * t9;
+			const double t18 = t16 + t17;
+			const double t19 = b * f;
+			const double t20 = e * t19;
+			const double t21 = t18 * t20;
+			const double t22 = t14 + t21;
+			const double t23 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
+			const double t24 = 0x1.3333333333333p-1 /* 3/5 */ * t6;
+			const double t25 = t23 + t24;
+			const double t26 = 0x1.b6db6db6db6dbp-3 /* 3/14 */ * t9;
 			const double t27 = t25 + t26;
-			const double t28 = b * f;
-			const double t29 = e * t28;
+			const double t28 = f * f;
+			const double t29 = a * t28;
 			const double t30 = t27 * t29;
-			const double t31 = t23 + t30;
+			const double t31 = t22 + t30;
 			const double t32 = s * t31;
 			acc0 = acc0 + t32;
 		}
@@ -1218,7 +1216,7 @@ void ew_ring_x5y2_portable(
 }
 
 /* integral of x^4 y^3; scheme even-power.
- * Cost per item: 30 mul, 15 add; 1 accumulators, 12 values alive, depth 12. */
+ * Cost per item: 30 mul, 15 add; 1 accumulators, 13 values alive, depth 12. */
 void ew_ring_x4y3_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1250,20 +1248,20 @@ void ew_ring_x4y3_portable(
 			const double t12 = b * b;
 			const double t13 = b * t12;
 			const double t14 = t11 * t13;
-			const double t15 = 0x1.ccccccccccccdp1 /* 18/5 */ * t5;
-			const double t16 = t3 + t15;
-			const double t17 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t9;
-			const double t18 = t16 + t17;
-			const double t19 = b * f;
-			const double t20 = f * t19;
-			const double t21 = t18 * t20;
+			const double t15 = 4.0 * t2;
+			const double t16 = 0x1.3333333333333p1 /* 12/5 */ * t8;
+			const double t17 = t15 + t16;
+			const double t18 = b * f;
+			const double t19 = b * t18;
+			const double t20 = t4 * t19;
+			const double t21 = t17 * t20;
 			const double t22 = t14 + t21;
-			const double t23 = 4.0 * t2;
-			const double t24 = 0x1.3333333333333p1 /* 12/5 */ * t8;
-			const double t25 = t23 + t24;
-			const double t26 = b * t19;
-			const double t27 = t4 * t26;
-			const double t28 = t25 * t27;
+			const double t23 = 0x1.ccccccccccccdp1 /* 18/5 */ * t5;
+			const double t24 = t3 + t23;
+			const double t25 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t9;
+			const double t26 = t24 + t25;
+			const double t27 = f * t18;
+			const double t28 = t26 * t27;
 			const double t29 = t22 + t28;
 			const double t30 = 0x1.999999999999ap-1 /* 4/5 */ * t2;
 			const double t31 = 0x1.2492492492492p-1 /* 4/7 */ * t8;
@@ -1632,26 +1630,26 @@ void ew_ring_x6y2_portable(
 			const double t17 = t13 + t16;
 			const double t18 = b * b;
 			const double t19 = t17 * t18;
-			const double t20 = 0x1.c71c71c71c71cp-4 /* 1/9 */ * t4;
-			const double t21 = t8 + t20;
-			const double t22 = 0x1.6db6db6db6db7p-1 /* 5/7 */ * t12;
+			const double t20 = t2 * t2;
+			const double t21 = 0x1.5555555555555p0 /* 4/3 */ * t20;
+			const double t22 = 0x1.5555555555555p1 /* 8/3 */ * t7;
 			const double t23 = t21 + t22;
-			const double t24 = 0x1.2f684bda12f68p-5 /* 1/27 */ * t15;
-			const double t25 = t23 + t24;
-			const double t26 = f * f;
-			const double t27 = t25 * t26;
-			const double t28 = t19 + t27;
-			const double t29 = t2 * t2;
-			const double t30 = 0x1.5555555555555p0 /* 4/3 */ * t29;
-			const double t31 = 0x1.5555555555555p1 /* 8/3 */ * t7;
-			const double t32 = t30 + t31;
-			const double t33 = t11 * t11;
-			const double t34 = 0x1.2492492492492p-1 /* 4/7 */ * t33;
-			const double t35 = t32 + t34;
-			const double t36 = b * f;
-			const double t37 = t6 * t36;
-			const double t38 = t35 * t37;
-			const double t39 = t28 + t38;
+			const double t24 = t11 * t11;
+			const double t25 = 0x1.2492492492492p-1 /* 4/7 */ * t24;
+			const double t26 = t23 + t25;
+			const double t27 = b * f;
+			const double t28 = t6 * t27;
+			const double t29 = t26 * t28;
+			const double t30 = t19 + t29;
+			const double t31 = 0x1.c71c71c71c71cp-4 /* 1/9 */ * t4;
+			const double t32 = t8 + t31;
+			const double t33 = 0x1.6db6db6db6db7p-1 /* 5/7 */ * t12;
+			const double t34 = t32 + t33;
+			const double t35 = 0x1.2f684bda12f68p-5 /* 1/27 */ * t15;
+			const double t36 = t34 + t35;
+			const double t37 = f * f;
+			const double t38 = t36 * t37;
+			const double t39 = t30 + t38;
 			const double t40 = s * t39;
 			acc0 = acc0 + t40;
 		}
@@ -1660,7 +1658,7 @@ void ew_ring_x6y2_portable(
 }
 
 /* integral of x^5 y^3; scheme even-power.
- * Cost per item: 31 mul, 17 add; 1 accumulators, 14 values alive, depth 12. */
+ * Cost per item: 31 mul, 17 add; 1 accumulators, 13 values alive, depth 12. */
 void ew_ring_x5y3_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1692,23 +1690,23 @@ void ew_ring_x5y3_portable(
 			const double t12 = b * t11;
 			const double t13 = a * t12;
 			const double t14 = t10 * t13;
-			const double t15 = 6.0 * t5;
-			const double t16 = t3 + t15;
-			const double t17 = 0x1.1249249249249p1 /* 15/7 */ * t9;
-			const double t18 = t16 + t17;
-			const double t19 = b * f;
-			const double t20 = f * t19;
-			const double t21 = a * t20;
-			const double t22 = t18 * t21;
-			const double t23 = t14 + t22;
-			const double t24 = 5.0 * t3;
-			const double t25 = t15 + t24;
-			const double t26 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t9;
+			const double t15 = 5.0 * t3;
+			const double t16 = 6.0 * t5;
+			const double t17 = t15 + t16;
+			const double t18 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t9;
+			const double t19 = t17 + t18;
+			const double t20 = b * f;
+			const double t21 = b * t20;
+			const double t22 = e * t21;
+			const double t23 = t19 * t22;
+			const double t24 = t14 + t23;
+			const double t25 = t3 + t16;
+			const double t26 = 0x1.1249249249249p1 /* 15/7 */ * t9;
 			const double t27 = t25 + t26;
-			const double t28 = b * t19;
-			const double t29 = e * t28;
+			const double t28 = f * t20;
+			const double t29 = a * t28;
 			const double t30 = t27 * t29;
-			const double t31 = t23 + t30;
+			const double t31 = t24 + t30;
 			const double t32 = 0x1.6db6db6db6db7p0 /* 10/7 */ * t5;
 			const double t33 = t3 + t32;
 			const double t34 = 0x1.c71c71c71c71cp-4 /* 1/9 */ * t9;

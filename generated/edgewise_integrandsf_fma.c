@@ -13,23 +13,20 @@
 
 #include <math.h>
 
-/* area; scheme matrix.
- * Cost per item: 2 mul or fma, 2 add; 1 accumulators, 4 values alive, depth 3. */
+/* area; scheme vertex.
+ * Cost per item: 1 mul or fma, 2 add; 1 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_FMA void ew_ring_x0y0f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
-	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
-			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
-			const float t0 = x0 * y1;
-			const float t1 = x1 * y0;
-			const float s = t0 - t1;
-			acc0 = acc0 + s;
+			const float y2 = y[i + 2];
+			const float width = x1 - cx;
+			const float height = y2 - y0;
+			acc0 = fmaf(width, height, acc0);
 		}
 		sum[lane] = acc0;
 	}
@@ -512,7 +509,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y1f_fma(
 }
 
 /* integral of x^3 y^2; scheme even-power.
- * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 11 values alive, depth 7. */
+ * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_FMA void ew_ring_x3y2f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -537,15 +534,15 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y2f_fma(
 			const float t5 = b * b;
 			const float t6 = a * t5;
 			const float t7 = t4 * t6;
-			const float t8 = 0x1.555556p-2f /* 1/3 */ * t2;
-			const float t9 = fmaf(0x1.333334p-1f /* 3/5 */, t3, t8);
-			const float t10 = f * f;
-			const float t11 = a * t10;
+			const float t8 = 2.0f * t2;
+			const float t9 = fmaf(0x1.99999ap-2f /* 2/5 */, t3, t8);
+			const float t10 = b * f;
+			const float t11 = e * t10;
 			const float t12 = fmaf(t9, t11, t7);
-			const float t13 = 2.0f * t2;
-			const float t14 = fmaf(0x1.99999ap-2f /* 2/5 */, t3, t13);
-			const float t15 = b * f;
-			const float t16 = e * t15;
+			const float t13 = 0x1.555556p-2f /* 1/3 */ * t2;
+			const float t14 = fmaf(0x1.333334p-1f /* 3/5 */, t3, t13);
+			const float t15 = f * f;
+			const float t16 = a * t15;
 			const float t17 = fmaf(t14, t16, t12);
 			acc0 = fmaf(s, t17, acc0);
 		}
@@ -769,16 +766,16 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y2f_fma(
 			const float t9 = fmaf(0x1.99999ap-3f /* 1/5 */, t8, t6);
 			const float t10 = b * b;
 			const float t11 = t9 * t10;
-			const float t12 = 0x1.555556p-2f /* 1/3 */ * t3;
-			const float t13 = fmaf(0x1.333334p0f /* 6/5 */, t5, t12);
-			const float t14 = fmaf(0x1.24924ap-3f /* 1/7 */, t8, t13);
-			const float t15 = f * f;
-			const float t16 = fmaf(t14, t15, t11);
-			const float t17 = 0x1.555556p1f /* 8/3 */ * t2;
-			const float t18 = fmaf(0x1.99999ap0f /* 8/5 */, t7, t17);
-			const float t19 = b * f;
-			const float t20 = t4 * t19;
-			const float t21 = fmaf(t18, t20, t16);
+			const float t12 = 0x1.555556p1f /* 8/3 */ * t2;
+			const float t13 = fmaf(0x1.99999ap0f /* 8/5 */, t7, t12);
+			const float t14 = b * f;
+			const float t15 = t4 * t14;
+			const float t16 = fmaf(t13, t15, t11);
+			const float t17 = 0x1.555556p-2f /* 1/3 */ * t3;
+			const float t18 = fmaf(0x1.333334p0f /* 6/5 */, t5, t17);
+			const float t19 = fmaf(0x1.24924ap-3f /* 1/7 */, t8, t18);
+			const float t20 = f * f;
+			const float t21 = fmaf(t19, t20, t16);
 			acc0 = fmaf(s, t21, acc0);
 		}
 		sum[lane] = acc0;
@@ -1036,7 +1033,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y1f_fma(
 }
 
 /* integral of x^5 y^2; scheme even-power.
- * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
+ * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 11 values alive, depth 9. */
 EW_ATTRIBUTE_FMA void ew_ring_x5y2f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1066,17 +1063,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y2f_fma(
 			const float t10 = b * b;
 			const float t11 = a * t10;
 			const float t12 = t9 * t11;
-			const float t13 = 0x1.99999ap-4f /* 1/10 */ * t3;
-			const float t14 = fmaf(0x1.333334p-1f /* 3/5 */, t5, t13);
-			const float t15 = fmaf(0x1.b6db6ep-3f /* 3/14 */, t8, t14);
-			const float t16 = f * f;
-			const float t17 = a * t16;
-			const float t18 = fmaf(t15, t17, t12);
-			const float t19 = fmaf(0x1.333334p0f /* 6/5 */, t5, t3);
-			const float t20 = fmaf(0x1.5f15f2p-4f /* 3/35 */, t8, t19);
-			const float t21 = b * f;
-			const float t22 = e * t21;
-			const float t23 = fmaf(t20, t22, t18);
+			const float t13 = fmaf(0x1.333334p0f /* 6/5 */, t5, t3);
+			const float t14 = fmaf(0x1.5f15f2p-4f /* 3/35 */, t8, t13);
+			const float t15 = b * f;
+			const float t16 = e * t15;
+			const float t17 = fmaf(t14, t16, t12);
+			const float t18 = 0x1.99999ap-4f /* 1/10 */ * t3;
+			const float t19 = fmaf(0x1.333334p-1f /* 3/5 */, t5, t18);
+			const float t20 = fmaf(0x1.b6db6ep-3f /* 3/14 */, t8, t19);
+			const float t21 = f * f;
+			const float t22 = a * t21;
+			const float t23 = fmaf(t20, t22, t17);
 			acc0 = fmaf(s, t23, acc0);
 		}
 		sum[lane] = acc0;
@@ -1084,7 +1081,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y2f_fma(
 }
 
 /* integral of x^4 y^3; scheme even-power.
- * Cost per item: 30 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 10. */
+ * Cost per item: 30 mul or fma, 5 add; 1 accumulators, 13 values alive, depth 10. */
 EW_ATTRIBUTE_FMA void ew_ring_x4y3f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1114,16 +1111,16 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y3f_fma(
 			const float t10 = b * b;
 			const float t11 = b * t10;
 			const float t12 = t9 * t11;
-			const float t13 = fmaf(0x1.ccccccp1f /* 18/5 */, t5, t3);
-			const float t14 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t13);
+			const float t13 = 4.0f * t2;
+			const float t14 = fmaf(0x1.333334p1f /* 12/5 */, t7, t13);
 			const float t15 = b * f;
-			const float t16 = f * t15;
-			const float t17 = fmaf(t14, t16, t12);
-			const float t18 = 4.0f * t2;
-			const float t19 = fmaf(0x1.333334p1f /* 12/5 */, t7, t18);
-			const float t20 = b * t15;
-			const float t21 = t4 * t20;
-			const float t22 = fmaf(t19, t21, t17);
+			const float t16 = b * t15;
+			const float t17 = t4 * t16;
+			const float t18 = fmaf(t14, t17, t12);
+			const float t19 = fmaf(0x1.ccccccp1f /* 18/5 */, t5, t3);
+			const float t20 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t19);
+			const float t21 = f * t15;
+			const float t22 = fmaf(t20, t21, t18);
 			const float t23 = 0x1.99999ap-1f /* 4/5 */ * t2;
 			const float t24 = fmaf(0x1.24924ap-1f /* 4/7 */, t7, t23);
 			const float t25 = f * f;
@@ -1416,38 +1413,38 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y2f_fma(
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
 			const float a = x0 + x1;
-			const float t0 = a * a;
-			const float t1 = a * t0;
-			const float t2 = t1 * t1;
 			const float e = x1 - x0;
-			const float t3 = a * e;
-			const float t4 = t3 * t3;
-			const float t5 = t0 * t4;
-			const float t6 = fmaf(0x1.c71c72p-4f /* 1/9 */, t2, t5);
-			const float t7 = e * e;
-			const float t8 = t4 * t7;
-			const float t9 = fmaf(0x1.6db6dcp-1f /* 5/7 */, t8, t6);
-			const float t10 = e * t7;
+			const float t0 = a * e;
+			const float t1 = t0 * t0;
+			const float t2 = a * a;
+			const float t3 = t2 * t2;
+			const float t4 = 0x1.555556p0f /* 4/3 */ * t3;
+			const float t5 = fmaf(0x1.555556p1f /* 8/3 */, t1, t4);
+			const float t6 = e * e;
+			const float t7 = t6 * t6;
+			const float t8 = fmaf(0x1.24924ap-1f /* 4/7 */, t7, t5);
+			const float t9 = t2 * t1;
+			const float t10 = a * t2;
 			const float t11 = t10 * t10;
-			const float t12 = fmaf(0x1.2f684cp-5f /* 1/27 */, t11, t9);
-			const float t13 = 0x1.555556p-2f /* 1/3 */ * t2;
-			const float t14 = fmaf(0x1.aaaaaap0f /* 5/3 */, t5, t13);
-			const float t15 = t14 + t8;
-			const float t16 = fmaf(0x1.861862p-5f /* 1/21 */, t11, t15);
+			const float t12 = 0x1.555556p-2f /* 1/3 */ * t11;
+			const float t13 = fmaf(0x1.aaaaaap0f /* 5/3 */, t9, t12);
+			const float t14 = t1 * t6;
+			const float t15 = t13 + t14;
+			const float t16 = e * t6;
+			const float t17 = t16 * t16;
+			const float t18 = fmaf(0x1.861862p-5f /* 1/21 */, t17, t15);
 			const float b = y0 + y1;
-			const float t17 = b * b;
-			const float t18 = t16 * t17;
+			const float t19 = b * b;
+			const float t20 = t18 * t19;
 			const float f = y1 - y0;
-			const float t19 = f * f;
-			const float t20 = fmaf(t12, t19, t18);
-			const float t21 = t0 * t0;
-			const float t22 = 0x1.555556p0f /* 4/3 */ * t21;
-			const float t23 = fmaf(0x1.555556p1f /* 8/3 */, t4, t22);
-			const float t24 = t7 * t7;
-			const float t25 = fmaf(0x1.24924ap-1f /* 4/7 */, t24, t23);
-			const float t26 = b * f;
-			const float t27 = t3 * t26;
-			const float t28 = fmaf(t25, t27, t20);
+			const float t21 = b * f;
+			const float t22 = t0 * t21;
+			const float t23 = fmaf(t8, t22, t20);
+			const float t24 = fmaf(0x1.c71c72p-4f /* 1/9 */, t11, t9);
+			const float t25 = fmaf(0x1.6db6dcp-1f /* 5/7 */, t14, t24);
+			const float t26 = fmaf(0x1.2f684cp-5f /* 1/27 */, t17, t25);
+			const float t27 = f * f;
+			const float t28 = fmaf(t26, t27, t23);
 			const float t29 = x0 * y1;
 			const float t30 = x1 * y0;
 			const float s = t29 - t30;
@@ -1458,7 +1455,7 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y2f_fma(
 }
 
 /* integral of x^5 y^3; scheme even-power.
- * Cost per item: 31 mul or fma, 7 add; 1 accumulators, 14 values alive, depth 10. */
+ * Cost per item: 31 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 10. */
 EW_ATTRIBUTE_FMA void ew_ring_x5y3f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1490,16 +1487,16 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y3f_fma(
 			const float t12 = a * t11;
 			const float t13 = t9 * t12;
 			const float t14 = 6.0f * t5;
-			const float t15 = t3 + t14;
-			const float t16 = fmaf(0x1.124924p1f /* 15/7 */, t8, t15);
+			const float t15 = fmaf(5.0f, t3, t14);
+			const float t16 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t15);
 			const float t17 = b * f;
-			const float t18 = f * t17;
-			const float t19 = a * t18;
+			const float t18 = b * t17;
+			const float t19 = e * t18;
 			const float t20 = fmaf(t16, t19, t13);
-			const float t21 = fmaf(5.0f, t3, t14);
-			const float t22 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t21);
-			const float t23 = b * t17;
-			const float t24 = e * t23;
+			const float t21 = t3 + t14;
+			const float t22 = fmaf(0x1.124924p1f /* 15/7 */, t8, t21);
+			const float t23 = f * t17;
+			const float t24 = a * t23;
 			const float t25 = fmaf(t22, t24, t20);
 			const float t26 = fmaf(0x1.6db6dcp0f /* 10/7 */, t5, t3);
 			const float t27 = fmaf(0x1.c71c72p-4f /* 1/9 */, t8, t26);
@@ -1766,5 +1763,5 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y8f_fma(
 }
 
 #else
-typedef int ew_not_empty;
+typedef int ew_ring_not_built;
 #endif

@@ -9,23 +9,21 @@
 #include "edgewise.h"
 #include "edgewise_kernels.h"
 
-/* area; scheme matrix.
- * Cost per item: 2 mul, 2 add; 1 accumulators, 4 values alive, depth 3. */
+/* area; scheme vertex.
+ * Cost per item: 1 mul, 3 add; 1 accumulators, 4 values alive, depth 3. */
 void ew_ring_x0y0f_portable(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
-	(void)cx;
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		for (size_t i = lane; i < count; i += 16) {
-			const float x0 = x[i];
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
-			const float t0 = x0 * y1;
-			const float t1 = x1 * y0;
-			const float s = t0 - t1;
-			acc0 = acc0 + s;
+			const float y2 = y[i + 2];
+			const float width = x1 - cx;
+			const float height = y2 - y0;
+			const float t0 = width * height;
+			acc0 = acc0 + t0;
 		}
 		sum[lane] = acc0;
 	}
@@ -582,18 +580,18 @@ void ew_ring_x3y2f_portable(
 			const float t5 = b * b;
 			const float t6 = a * t5;
 			const float t7 = t4 * t6;
-			const float t8 = 0x1.555556p-2f /* 1/3 */ * t2;
-			const float t9 = 0x1.333334p-1f /* 3/5 */ * t3;
+			const float t8 = 2.0f * t2;
+			const float t9 = 0x1.99999ap-2f /* 2/5 */ * t3;
 			const float t10 = t8 + t9;
-			const float t11 = f * f;
-			const float t12 = a * t11;
+			const float t11 = b * f;
+			const float t12 = e * t11;
 			const float t13 = t10 * t12;
 			const float t14 = t7 + t13;
-			const float t15 = 2.0f * t2;
-			const float t16 = 0x1.99999ap-2f /* 2/5 */ * t3;
+			const float t15 = 0x1.555556p-2f /* 1/3 */ * t2;
+			const float t16 = 0x1.333334p-1f /* 3/5 */ * t3;
 			const float t17 = t15 + t16;
-			const float t18 = b * f;
-			const float t19 = e * t18;
+			const float t18 = f * f;
+			const float t19 = a * t18;
 			const float t20 = t17 * t19;
 			const float t21 = t14 + t20;
 			const float t22 = s * t21;
@@ -847,21 +845,21 @@ void ew_ring_x4y2f_portable(
 			const float t11 = t7 + t10;
 			const float t12 = b * b;
 			const float t13 = t11 * t12;
-			const float t14 = 0x1.555556p-2f /* 1/3 */ * t3;
-			const float t15 = 0x1.333334p0f /* 6/5 */ * t5;
+			const float t14 = 0x1.555556p1f /* 8/3 */ * t2;
+			const float t15 = 0x1.99999ap0f /* 8/5 */ * t8;
 			const float t16 = t14 + t15;
-			const float t17 = 0x1.24924ap-3f /* 1/7 */ * t9;
-			const float t18 = t16 + t17;
-			const float t19 = f * f;
-			const float t20 = t18 * t19;
-			const float t21 = t13 + t20;
-			const float t22 = 0x1.555556p1f /* 8/3 */ * t2;
-			const float t23 = 0x1.99999ap0f /* 8/5 */ * t8;
-			const float t24 = t22 + t23;
-			const float t25 = b * f;
-			const float t26 = t4 * t25;
-			const float t27 = t24 * t26;
-			const float t28 = t21 + t27;
+			const float t17 = b * f;
+			const float t18 = t4 * t17;
+			const float t19 = t16 * t18;
+			const float t20 = t13 + t19;
+			const float t21 = 0x1.555556p-2f /* 1/3 */ * t3;
+			const float t22 = 0x1.333334p0f /* 6/5 */ * t5;
+			const float t23 = t21 + t22;
+			const float t24 = 0x1.24924ap-3f /* 1/7 */ * t9;
+			const float t25 = t23 + t24;
+			const float t26 = f * f;
+			const float t27 = t25 * t26;
+			const float t28 = t20 + t27;
 			const float t29 = s * t28;
 			acc0 = acc0 + t29;
 		}
@@ -1193,23 +1191,23 @@ void ew_ring_x5y2f_portable(
 			const float t12 = b * b;
 			const float t13 = a * t12;
 			const float t14 = t11 * t13;
-			const float t15 = 0x1.99999ap-4f /* 1/10 */ * t3;
-			const float t16 = 0x1.333334p-1f /* 3/5 */ * t6;
-			const float t17 = t15 + t16;
-			const float t18 = 0x1.b6db6ep-3f /* 3/14 */ * t9;
-			const float t19 = t17 + t18;
-			const float t20 = f * f;
-			const float t21 = a * t20;
-			const float t22 = t19 * t21;
-			const float t23 = t14 + t22;
-			const float t24 = 0x1.333334p0f /* 6/5 */ * t6;
-			const float t25 = t3 + t24;
-			const float t26 = 0x1.5f15f2p-4f /* 3/35 */ * t9;
+			const float t15 = 0x1.333334p0f /* 6/5 */ * t6;
+			const float t16 = t3 + t15;
+			const float t17 = 0x1.5f15f2p-4f /* 3/35 */ * t9;
+			const float t18 = t16 + t17;
+			const float t19 = b * f;
+			const float t20 = e * t19;
+			const float t21 = t18 * t20;
+			const float t22 = t14 + t21;
+			const float t23 = 0x1.99999ap-4f /* 1/10 */ * t3;
+			const float t24 = 0x1.333334p-1f /* 3/5 */ * t6;
+			const float t25 = t23 + t24;
+			const float t26 = 0x1.b6db6ep-3f /* 3/14 */ * t9;
 			const float t27 = t25 + t26;
-			const float t28 = b * f;
-			const float t29 = e * t28;
+			const float t28 = f * f;
+			const float t29 = a * t28;
 			const float t30 = t27 * t29;
-			const float t31 = t23 + t30;
+			const float t31 = t22 + t30;
 			const float t32 = s * t31;
 			acc0 = acc0 + t32;
 		}
@@ -1218,7 +1216,7 @@ void ew_ring_x5y2f_portable(
 }
 
 /* integral of x^4 y^3; scheme even-power.
- * Cost per item: 30 mul, 15 add; 1 accumulators, 12 values alive, depth 12. */
+ * Cost per item: 30 mul, 15 add; 1 accumulators, 13 values alive, depth 12. */
 void ew_ring_x4y3f_portable(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1250,20 +1248,20 @@ void ew_ring_x4y3f_portable(
 			const float t12 = b * b;
 			const float t13 = b * t12;
 			const float t14 = t11 * t13;
-			const float t15 = 0x1.ccccccp1f /* 18/5 */ * t5;
-			const float t16 = t3 + t15;
-			const float t17 = 0x1.b6db6ep-2f /* 3/7 */ * t9;
-			const float t18 = t16 + t17;
-			const float t19 = b * f;
-			const float t20 = f * t19;
-			const float t21 = t18 * t20;
+			const float t15 = 4.0f * t2;
+			const float t16 = 0x1.333334p1f /* 12/5 */ * t8;
+			const float t17 = t15 + t16;
+			const float t18 = b * f;
+			const float t19 = b * t18;
+			const float t20 = t4 * t19;
+			const float t21 = t17 * t20;
 			const float t22 = t14 + t21;
-			const float t23 = 4.0f * t2;
-			const float t24 = 0x1.333334p1f /* 12/5 */ * t8;
-			const float t25 = t23 + t24;
-			const float t26 = b * t19;
-			const float t27 = t4 * t26;
-			const float t28 = t25 * t27;
+			const float t23 = 0x1.ccccccp1f /* 18/5 */ * t5;
+			const float t24 = t3 + t23;
+			const float t25 = 0x1.b6db6ep-2f /* 3/7 */ * t9;
+			const float t26 = t24 + t25;
+			const float t27 = f * t18;
+			const float t28 = t26 * t27;
 			const float t29 = t22 + t28;
 			const float t30 = 0x1.99999ap-1f /* 4/5 */ * t2;
 			const float t31 = 0x1.24924ap-1f /* 4/7 */ * t8;
@@ -1632,26 +1630,26 @@ void ew_ring_x6y2f_portable(
 			const float t17 = t13 + t16;
 			const float t18 = b * b;
 			const float t19 = t17 * t18;
-			const float t20 = 0x1.c71c72p-4f /* 1/9 */ * t4;
-			const float t21 = t8 + t20;
-			const float t22 = 0x1.6db6dcp-1f /* 5/7 */ * t12;
+			const float t20 = t2 * t2;
+			const float t21 = 0x1.555556p0f /* 4/3 */ * t20;
+			const float t22 = 0x1.555556p1f /* 8/3 */ * t7;
 			const float t23 = t21 + t22;
-			const float t24 = 0x1.2f684cp-5f /* 1/27 */ * t15;
-			const float t25 = t23 + t24;
-			const float t26 = f * f;
-			const float t27 = t25 * t26;
-			const float t28 = t19 + t27;
-			const float t29 = t2 * t2;
-			const float t30 = 0x1.555556p0f /* 4/3 */ * t29;
-			const float t31 = 0x1.555556p1f /* 8/3 */ * t7;
-			const float t32 = t30 + t31;
-			const float t33 = t11 * t11;
-			const float t34 = 0x1.24924ap-1f /* 4/7 */ * t33;
-			const float t35 = t32 + t34;
-			const float t36 = b * f;
-			const float t37 = t6 * t36;
-			const float t38 = t35 * t37;
-			const float t39 = t28 + t38;
+			const float t24 = t11 * t11;
+			const float t25 = 0x1.24924ap-1f /* 4/7 */ * t24;
+			const float t26 = t23 + t25;
+			const float t27 = b * f;
+			const float t28 = t6 * t27;
+			const float t29 = t26 * t28;
+			const float t30 = t19 + t29;
+			const float t31 = 0x1.c71c72p-4f /* 1/9 */ * t4;
+			const float t32 = t8 + t31;
+			const float t33 = 0x1.6db6dcp-1f /* 5/7 */ * t12;
+			const float t34 = t32 + t33;
+			const float t35 = 0x1.2f684cp-5f /* 1/27 */ * t15;
+			const float t36 = t34 + t35;
+			const float t37 = f * f;
+			const float t38 = t36 * t37;
+			const float t39 = t30 + t38;
 			const float t40 = s * t39;
 			acc0 = acc0 + t40;
 		}
@@ -1660,7 +1658,7 @@ void ew_ring_x6y2f_portable(
 }
 
 /* integral of x^5 y^3; scheme even-power.
- * Cost per item: 31 mul, 17 add; 1 accumulators, 14 values alive, depth 12. */
+ * Cost per item: 31 mul, 17 add; 1 accumulators, 13 values alive, depth 12. */
 void ew_ring_x5y3f_portable(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1692,23 +1690,23 @@ void ew_ring_x5y3f_portable(
 			const float t12 = b * t11;
 			const float t13 = a * t12;
 			const float t14 = t10 * t13;
-			const float t15 = 6.0f * t5;
-			const float t16 = t3 + t15;
-			const float t17 = 0x1.124924p1f /* 15/7 */ * t9;
-			const float t18 = t16 + t17;
-			const float t19 = b * f;
-			const float t20 = f * t19;
-			const float t21 = a * t20;
-			const float t22 = t18 * t21;
-			const float t23 = t14 + t22;
-			const float t24 = 5.0f * t3;
-			const float t25 = t15 + t24;
-			const float t26 = 0x1.b6db6ep-2f /* 3/7 */ * t9;
+			const float t15 = 5.0f * t3;
+			const float t16 = 6.0f * t5;
+			const float t17 = t15 + t16;
+			const float t18 = 0x1.b6db6ep-2f /* 3/7 */ * t9;
+			const float t19 = t17 + t18;
+			const float t20 = b * f;
+			const float t21 = b * t20;
+			const float t22 = e * t21;
+			const float t23 = t19 * t22;
+			const float t24 = t14 + t23;
+			const float t25 = t3 + t16;
+			const float t26 = 0x1.124924p1f /* 15/7 */ * t9;
 			const float t27 = t25 + t26;
-			const float t28 = b * t19;
-			const float t29 = e * t28;
+			const float t28 = f * t20;
+			const float t29 = a * t28;
 			const float t30 = t27 * t29;
-			const float t31 = t23 + t30;
+			const float t31 = t24 + t30;
 			const float t32 = 0x1.6db6dcp0f /* 10/7 */ * t5;
 			const float t33 = t3 + t32;
 			const float t34 = 0x1.c71c72p-4f /* 1/9 */ * t9;

@@ -143,7 +143,7 @@
 	X(EW_RING_MOMENTS_6, moments, 6, 0, 33, 28, 22, 2) \
 	X(EW_RING_MOMENTS_7, moments, 7, 0, 42, 36, 25, 2) \
 	X(EW_RING_MOMENTS_8, moments, 8, 0, 52, 45, 28, 2) \
-	X(EW_RING_X0Y0, monomial, 0, 0, 1, 1, 3, 1) \
+	X(EW_RING_X0Y0, monomial, 0, 0, 1, 1, 4, 1) \
 	X(EW_RING_X1Y0, monomial, 1, 0, 1, 1, 7, 1) \
 	X(EW_RING_X0Y1, monomial, 0, 1, 1, 1, 7, 1) \
 	X(EW_RING_X2Y0, monomial, 2, 0, 1, 1, 9, 1) \
@@ -160,29 +160,29 @@
 	X(EW_RING_X0Y4, monomial, 0, 4, 1, 1, 13, 1) \
 	X(EW_RING_X5Y0, monomial, 5, 0, 1, 1, 15, 1) \
 	X(EW_RING_X4Y1, monomial, 4, 1, 1, 1, 185, 1) \
-	X(EW_RING_X3Y2, monomial, 3, 2, 1, 1, 181, 1) \
+	X(EW_RING_X3Y2, monomial, 3, 2, 1, 1, 184, 1) \
 	X(EW_RING_X2Y3, monomial, 2, 3, 1, 1, 184, 1) \
 	X(EW_RING_X1Y4, monomial, 1, 4, 1, 1, 185, 1) \
 	X(EW_RING_X0Y5, monomial, 0, 5, 1, 1, 15, 1) \
 	X(EW_RING_X6Y0, monomial, 6, 0, 1, 1, 17, 1) \
 	X(EW_RING_X5Y1, monomial, 5, 1, 1, 1, 380, 1) \
-	X(EW_RING_X4Y2, monomial, 4, 2, 1, 1, 388, 1) \
+	X(EW_RING_X4Y2, monomial, 4, 2, 1, 1, 394, 1) \
 	X(EW_RING_X3Y3, monomial, 3, 3, 1, 1, 435, 1) \
 	X(EW_RING_X2Y4, monomial, 2, 4, 1, 1, 394, 1) \
 	X(EW_RING_X1Y5, monomial, 1, 5, 1, 1, 380, 1) \
 	X(EW_RING_X0Y6, monomial, 0, 6, 1, 1, 17, 1) \
 	X(EW_RING_X7Y0, monomial, 7, 0, 1, 1, 19, 1) \
 	X(EW_RING_X6Y1, monomial, 6, 1, 1, 1, 816, 1) \
-	X(EW_RING_X5Y2, monomial, 5, 2, 1, 1, 825, 1) \
-	X(EW_RING_X4Y3, monomial, 4, 3, 1, 1, 837, 1) \
+	X(EW_RING_X5Y2, monomial, 5, 2, 1, 1, 835, 1) \
+	X(EW_RING_X4Y3, monomial, 4, 3, 1, 1, 840, 1) \
 	X(EW_RING_X3Y4, monomial, 3, 4, 1, 1, 840, 1) \
 	X(EW_RING_X2Y5, monomial, 2, 5, 1, 1, 835, 1) \
 	X(EW_RING_X1Y6, monomial, 1, 6, 1, 1, 816, 1) \
 	X(EW_RING_X0Y7, monomial, 0, 7, 1, 1, 19, 1) \
 	X(EW_RING_X8Y0, monomial, 8, 0, 1, 1, 21, 1) \
 	X(EW_RING_X7Y1, monomial, 7, 1, 1, 1, 1757, 1) \
-	X(EW_RING_X6Y2, monomial, 6, 2, 1, 1, 1845, 1) \
-	X(EW_RING_X5Y3, monomial, 5, 3, 1, 1, 1849, 1) \
+	X(EW_RING_X6Y2, monomial, 6, 2, 1, 1, 1865, 1) \
+	X(EW_RING_X5Y3, monomial, 5, 3, 1, 1, 1855, 1) \
 	X(EW_RING_X4Y4, monomial, 4, 4, 1, 1, 1908, 1) \
 	X(EW_RING_X3Y5, monomial, 3, 5, 1, 1, 1855, 1) \
 	X(EW_RING_X2Y6, monomial, 2, 6, 1, 1, 1865, 1) \
@@ -244,13 +244,13 @@ enum {
 	EW_RING_X2Y6,
 	EW_RING_X1Y7,
 	EW_RING_X0Y8,
-	EW_RING_COUNT,
+	EW_RINGS_COUNT,
 	EW_MAX_ACCUMULATORS = 52,
 	EW_MAX_OUTPUTS = 45
 };
 
 /* X(id, window, accumulators, outputs, finish): for the ring driver; window counts vertices */
-#define EW_RING_SHAPES(X) \
+#define EW_RINGS_SHAPES(X) \
 	X(EW_RING_MOMENTS_0, 3, 1, 1, ew_ring_moments_0_finish) \
 	X(EW_RING_MOMENTS_1, 2, 3, 3, ew_ring_moments_1_finish) \
 	X(EW_RING_MOMENTS_2, 2, 6, 6, ew_ring_moments_2_finish) \
@@ -260,7 +260,7 @@ enum {
 	X(EW_RING_MOMENTS_6, 2, 33, 28, ew_ring_moments_6_finish) \
 	X(EW_RING_MOMENTS_7, 2, 42, 36, ew_ring_moments_7_finish) \
 	X(EW_RING_MOMENTS_8, 2, 52, 45, ew_ring_moments_8_finish) \
-	X(EW_RING_X0Y0, 2, 1, 1, ew_ring_x0y0_finish) \
+	X(EW_RING_X0Y0, 3, 1, 1, ew_ring_x0y0_finish) \
 	X(EW_RING_X1Y0, 2, 1, 1, ew_ring_x1y0_finish) \
 	X(EW_RING_X0Y1, 2, 1, 1, ew_ring_x0y1_finish) \
 	X(EW_RING_X2Y0, 2, 1, 1, ew_ring_x2y0_finish) \
@@ -369,7 +369,7 @@ enum {
 	X(EW_RING_MOMENTS_6, ew_ring_moments_6_portable, 81, 71) \
 	X(EW_RING_MOMENTS_7, ew_ring_moments_7_portable, 108, 93) \
 	X(EW_RING_MOMENTS_8, ew_ring_moments_8_portable, 139, 118) \
-	X(EW_RING_X0Y0, ew_ring_x0y0_portable, 2, 2) \
+	X(EW_RING_X0Y0, ew_ring_x0y0_portable, 1, 3) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_portable, 3, 3) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_portable, 3, 3) \
 	X(EW_RING_X2Y0, ew_ring_x2y0_portable, 5, 4) \
@@ -426,7 +426,7 @@ enum {
 	X(EW_RING_MOMENTS_6, ew_ring_moments_6_fma, 81, 22) \
 	X(EW_RING_MOMENTS_7, ew_ring_moments_7_fma, 108, 29) \
 	X(EW_RING_MOMENTS_8, ew_ring_moments_8_fma, 139, 37) \
-	X(EW_RING_X0Y0, ew_ring_x0y0_fma, 2, 2) \
+	X(EW_RING_X0Y0, ew_ring_x0y0_fma, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_fma, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_fma, 3, 2) \
 	X(EW_RING_X2Y0, ew_ring_x2y0_fma, 5, 2) \
@@ -486,7 +486,7 @@ enum {
 	X(EW_RING_MOMENTS_6, ew_ring_moments_6f_portable, 81, 71) \
 	X(EW_RING_MOMENTS_7, ew_ring_moments_7f_portable, 108, 93) \
 	X(EW_RING_MOMENTS_8, ew_ring_moments_8f_portable, 139, 118) \
-	X(EW_RING_X0Y0, ew_ring_x0y0f_portable, 2, 2) \
+	X(EW_RING_X0Y0, ew_ring_x0y0f_portable, 1, 3) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_portable, 3, 3) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_portable, 3, 3) \
 	X(EW_RING_X2Y0, ew_ring_x2y0f_portable, 5, 4) \
@@ -543,7 +543,7 @@ enum {
 	X(EW_RING_MOMENTS_6, ew_ring_moments_6f_fma, 81, 22) \
 	X(EW_RING_MOMENTS_7, ew_ring_moments_7f_fma, 108, 29) \
 	X(EW_RING_MOMENTS_8, ew_ring_moments_8f_fma, 139, 37) \
-	X(EW_RING_X0Y0, ew_ring_x0y0f_fma, 2, 2) \
+	X(EW_RING_X0Y0, ew_ring_x0y0f_fma, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_fma, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_fma, 3, 2) \
 	X(EW_RING_X2Y0, ew_ring_x2y0f_fma, 5, 2) \
@@ -595,26 +595,26 @@ extern "C" {
 
 /* `count` items; cx is the abscissa of the local origin (vertex form only); added to
  * sum[accumulator * lanes + lane]. Results: finish(sums over all lanes, out). */
-typedef void ew_run(const double *x, const double *y, double cx, size_t count, double *sum);
-typedef void ew_runf(const float *x, const float *y, float cx, size_t count, float *sum);
-typedef void ew_finish(const double *sum, double *out);
+typedef void ew_ring_run(const double *x, const double *y, double cx, size_t count, double *sum);
+typedef void ew_ring_runf(const float *x, const float *y, float cx, size_t count, float *sum);
+typedef void ew_ring_finish(const double *sum, double *out);
 
-#define EW_DECLARE(id, window, accumulators, outputs, finish) ew_finish finish;
-EW_RING_SHAPES(EW_DECLARE)
+#define EW_DECLARE(id, window, accumulators, outputs, finish) ew_ring_finish finish;
+EW_RINGS_SHAPES(EW_DECLARE)
 #undef EW_DECLARE
-#define EW_DECLARE(id, kernel, f, a) ew_run kernel;
+#define EW_DECLARE(id, kernel, f, a) ew_ring_run kernel;
 EW_RINGS_PORTABLE_DOUBLE(EW_DECLARE)
 #undef EW_DECLARE
 #if EW_BUILD_FMA
-#define EW_DECLARE(id, kernel, f, a) ew_run kernel;
+#define EW_DECLARE(id, kernel, f, a) ew_ring_run kernel;
 EW_RINGS_FMA_DOUBLE(EW_DECLARE)
 #undef EW_DECLARE
 #endif
-#define EW_DECLARE(id, kernel, f, a) ew_runf kernel;
+#define EW_DECLARE(id, kernel, f, a) ew_ring_runf kernel;
 EW_RINGS_PORTABLE_FLOAT(EW_DECLARE)
 #undef EW_DECLARE
 #if EW_BUILD_FMA
-#define EW_DECLARE(id, kernel, f, a) ew_runf kernel;
+#define EW_DECLARE(id, kernel, f, a) ew_ring_runf kernel;
 EW_RINGS_FMA_FLOAT(EW_DECLARE)
 #undef EW_DECLARE
 #endif

@@ -1158,5 +1158,5 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_8_fma(
 }
 
 #else
-typedef int ew_not_empty;
+typedef int ew_ring_not_built;
 #endif

@@ -3,16 +3,16 @@
  * On x86 the CPU is asked by CPUID, and by XGETBV whether the operating system saves the wide registers: FMA3 works on
  * them. The answer is cached in one word, written with the same value by whichever thread comes first.
  *
- * SPDX-License-Identifier: 0BSD */
+ * Edgewise runtime, SPDX-License-Identifier: 0BSD */
 #include "edgewise_runtime.h"
 
-static const struct { unsigned bit; const char *name; } ew_targets_known[] = {
+static const struct { unsigned bit; const char *name; } ew_cpu_names[] = {
 	{ EW_PORTABLE, "portable" }, { EW_FMA, "fma" }, { EW_AVX2, "avx2" }, { EW_AVX512, "avx512" }, { EW_NEON, "neon" },
 	{ EW_WASM128, "wasm128" },
 };
-enum { EW_TARGETS_KNOWN = (int)(sizeof ew_targets_known / sizeof *ew_targets_known) };
+enum { EW_CPU_NAMES = (int)(sizeof ew_cpu_names / sizeof *ew_cpu_names) };
 
-static unsigned ew_available, ew_forced;       /* 0: not asked yet; 0: not forced */
+static unsigned ew_cpu_available, ew_cpu_forced;       /* 0: not asked yet; 0: not forced */
 
 #if defined(__GNUC__) || defined(__clang__)
 #define EW_LOAD(word) __atomic_load_n(&(word), __ATOMIC_RELAXED)
@@ -25,20 +25,20 @@ static unsigned ew_available, ew_forced;       /* 0: not asked yet; 0: not force
 #if EW_BUILD_FMA && (defined(__x86_64__) || defined(_M_X64))
 #if defined(_MSC_VER)
 #include <intrin.h>
-static void ew_cpuid(unsigned leaf, unsigned r[4])
+static void ew_cpu_id(unsigned leaf, unsigned r[4])
 {
 	__cpuidex((int *)r, (int)leaf, 0);
 }
-static unsigned ew_xcr0(void)
+static unsigned ew_cpu_xcr0(void)
 {
 	return (unsigned)_xgetbv(0);
 }
 #else
-static void ew_cpuid(unsigned leaf, unsigned r[4])
+static void ew_cpu_id(unsigned leaf, unsigned r[4])
 {
 	__asm__("cpuid" : "=a"(r[0]), "=b"(r[1]), "=c"(r[2]), "=d"(r[3]) : "a"(leaf), "c"(0));
 }
-static unsigned ew_xcr0(void)
+static unsigned ew_cpu_xcr0(void)
 {
 	unsigned low, high;
 	__asm__("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
@@ -46,20 +46,20 @@ static unsigned ew_xcr0(void)
 }
 #endif
 
-static unsigned ew_detect(void)
+static unsigned ew_cpu_detect(void)
 {
 	enum { FMA = 1u << 12, OSXSAVE = 1u << 27, AVX = 1u << 28, XMM_YMM = 0x6 };
 	unsigned r[4] = { 0, 0, 0, 0 };
-	ew_cpuid(0, r);
+	ew_cpu_id(0, r);
 	if (r[0] < 1)
 		return EW_PORTABLE;
-	ew_cpuid(1, r);
-	if ((r[2] & (FMA | OSXSAVE | AVX)) != (FMA | OSXSAVE | AVX) || (ew_xcr0() & XMM_YMM) != XMM_YMM)
+	ew_cpu_id(1, r);
+	if ((r[2] & (FMA | OSXSAVE | AVX)) != (FMA | OSXSAVE | AVX) || (ew_cpu_xcr0() & XMM_YMM) != XMM_YMM)
 		return EW_PORTABLE;
 	return EW_PORTABLE | EW_FMA;
 }
 #else
-static unsigned ew_detect(void)
+static unsigned ew_cpu_detect(void)
 {
 	return EW_BUILD_FMA ? EW_PORTABLE | EW_FMA : EW_PORTABLE;
 }
@@ -67,17 +67,17 @@ static unsigned ew_detect(void)
 
 unsigned ew_targets(void)
 {
-	unsigned known = EW_LOAD(ew_available);
+	unsigned known = EW_LOAD(ew_cpu_available);
 	if (!known) {
-		known = ew_detect();
-		EW_STORE(ew_available, known);
+		known = ew_cpu_detect();
+		EW_STORE(ew_cpu_available, known);
 	}
 	return known;
 }
 
-unsigned ew_current_target(void)
+unsigned ew_cpu_target(void)
 {
-	unsigned forced = EW_LOAD(ew_forced);
+	unsigned forced = EW_LOAD(ew_cpu_forced);
 	if (forced)
 		return forced;
 	return ew_targets() & EW_FMA ? EW_FMA : EW_PORTABLE;
@@ -87,15 +87,15 @@ int ew_use_target(unsigned target)
 {
 	if (target & (target - 1) || (target & ew_targets()) != target)
 		return EW_UNSUPPORTED;
-	EW_STORE(ew_forced, target);
+	EW_STORE(ew_cpu_forced, target);
 	return EW_OK;
 }
 
 const char *ew_target_name(unsigned target)
 {
-	for (int i = 0; i < EW_TARGETS_KNOWN; ++i)
-		if (ew_targets_known[i].bit == target)
-			return ew_targets_known[i].name;
+	for (int i = 0; i < EW_CPU_NAMES; ++i)
+		if (ew_cpu_names[i].bit == target)
+			return ew_cpu_names[i].name;
 	return "unknown";
 }
 

@@ -1,19 +1,19 @@
 /* edgewise_rings.c - integrals over one ring: the driver in edgewise_rings_template.h, once per precision.
  *
- * SPDX-License-Identifier: 0BSD */
+ * Edgewise runtime, SPDX-License-Identifier: 0BSD */
 #include "edgewise_runtime.h"
 
 #include <math.h>
 
-typedef struct { int window, accumulators, outputs; ew_finish *finish; } ew_shape;
+typedef struct { int window, accumulators, outputs; ew_ring_finish *finish; } ew_ring_shape;
 
 #define EW_SHAPE(id, window, accumulators, outputs, finish) { window, accumulators, outputs, finish },
-static const ew_shape ew_shapes[] = { EW_RING_SHAPES(EW_SHAPE) };
+static const ew_ring_shape ew_ring_shapes[] = { EW_RINGS_SHAPES(EW_SHAPE) };
 #undef EW_SHAPE
 
 #ifdef EW_HAS_MONOMIALS
 #define EW_CASE(m, n, id) case (m) * 64 + (n): return id;
-static int ew_monomial_ring(int m, int n)
+static int ew_ring_of_monomial(int m, int n)
 {
 	if (m < 0 || n < 0 || m > 32 || n > 32)
 		return -1;
@@ -27,22 +27,25 @@ static int ew_monomial_ring(int m, int n)
 #endif
 
 #ifdef EW_MAX_DEGREE
-/* a_mn <- sum C(m,i) C(n,j) dx^(m-i) dy^(n-j) a_ij, in place, by repeated a_m += dx a_(m-1). */
-static void ew_translate(int degree, double dx, double dy, double *a)
+/* a_mn <- sum C(m,i) C(n,j) dx^(m-i) dy^(n-j) a_ij, in place: repeated a_m += dx a_(m-1), then the same in y. */
+static void ew_ring_translate(int degree, double dx, double dy, double *a)
 {
-	for (int other = 0; other < degree; ++other)
-		for (int first = 1; first <= degree - other; ++first)
-			for (int k = degree - other; k >= first; --k) {
-				a[EW_INDEX(k, other)] += dx * a[EW_INDEX(k - 1, other)];
-				a[EW_INDEX(other, k)] += dy * a[EW_INDEX(other, k - 1)];
-			}
+	for (int n = 0; n < degree; ++n)
+		for (int first = 1; first <= degree - n; ++first)
+			for (int m = degree - n; m >= first; --m)
+				a[EW_INDEX(m, n)] += dx * a[EW_INDEX(m - 1, n)];
+	for (int m = 0; m < degree; ++m)
+		for (int first = 1; first <= degree - m; ++first)
+			for (int n = degree - m; n >= first; --n)
+				a[EW_INDEX(m, n)] += dy * a[EW_INDEX(m, n - 1)];
 }
 #endif
 
 #ifdef EW_HAS_DOUBLE
 #define EW_REAL double
 #define EW_NAME(stem) ew_##stem
-#define EW_RUN ew_run
+#define EW_LOCAL(stem) ew_ring_##stem
+#define EW_RUN ew_ring_run
 #define EW_WIDTH EW_LANES
 #define EW_IS_FLOAT 0
 #define EW_LIST_PORTABLE EW_RINGS_PORTABLE_DOUBLE
@@ -54,7 +57,8 @@ static void ew_translate(int degree, double dx, double dy, double *a)
 #ifdef EW_HAS_FLOAT
 #define EW_REAL float
 #define EW_NAME(stem) ew_##stem##f
-#define EW_RUN ew_runf
+#define EW_LOCAL(stem) ew_ring_##stem##f
+#define EW_RUN ew_ring_runf
 #define EW_WIDTH EW_LANES_FLOAT
 #define EW_IS_FLOAT 1
 #define EW_LIST_PORTABLE EW_RINGS_PORTABLE_FLOAT

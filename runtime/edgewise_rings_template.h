@@ -1,6 +1,7 @@
 /* edgewise_rings_template.h - the ring driver, included by edgewise_rings.c once per precision.
  *
- * Parameters: EW_REAL, EW_NAME(stem) the function's name with its suffix, EW_RUN the kernel type, EW_WIDTH the number of
+ * Parameters: EW_REAL, EW_NAME(stem) the name of a public function
+ * with its suffix, EW_LOCAL(stem) that of a local one, EW_RUN the kernel type, EW_WIDTH the number of
  * virtual lanes, EW_IS_FLOAT, EW_LIST_PORTABLE, EW_LIST_FMA and EW_LIST_POLYNOMIALS the kernel lists.
  *
  * The items of a ring (its edges, or for the vertex form all vertices but the first) are numbered from 0; item i goes to
@@ -9,53 +10,53 @@
  * change the result. Float lanes are flushed to double after every EW_BLOCK items. At the end lanes are added by halving:
  * lane l and lane l + EW_WIDTH/2, then l and l + EW_WIDTH/4, and so on.
  *
- * SPDX-License-Identifier: 0BSD */
+ * Edgewise runtime, SPDX-License-Identifier: 0BSD */
 
 typedef struct {
 	const EW_REAL *x, *y;
 	size_t stride, n;
 	int moved;                     /* vertex = ((x, y) - (cx, cy)) - (dx, dy), each subtraction rounded */
 	EW_REAL cx, cy, dx, dy;
-} EW_NAME(vertices);
+} EW_LOCAL(vertices);
 
-static EW_RUN *EW_NAME(kernel)(int id)
+static EW_RUN *EW_LOCAL(kernel)(int id)
 {
 #define EW_ROW(id, kernel, f, a) kernel,
 	static EW_RUN *const portable[] = { EW_LIST_PORTABLE(EW_ROW) };
 #if EW_BUILD_FMA
 	static EW_RUN *const fma_kernels[] = { EW_LIST_FMA(EW_ROW) };
-	if (ew_current_target() == EW_FMA)
+	if (ew_cpu_target() == EW_FMA)
 		return fma_kernels[id];
 #endif
 #undef EW_ROW
 	return portable[id];
 }
 
-static EW_REAL EW_NAME(vertex_x)(const EW_NAME(vertices) *v, size_t i)
+static EW_REAL EW_LOCAL(vertex_x)(const EW_LOCAL(vertices) *v, size_t i)
 {
 	EW_REAL x = v->x[i * v->stride];
 	return v->moved ? (x - v->cx) - v->dx : x;
 }
 
-static EW_REAL EW_NAME(vertex_y)(const EW_NAME(vertices) *v, size_t i)
+static EW_REAL EW_LOCAL(vertex_y)(const EW_LOCAL(vertices) *v, size_t i)
 {
 	EW_REAL y = v->y[i * v->stride];
 	return v->moved ? (y - v->cy) - v->dy : y;
 }
 
 /* Items start .. end-1, through the buffer; the ring closes by itself. */
-static void EW_NAME(run_staged)(EW_RUN *run, const EW_NAME(vertices) *v, int window, size_t start, size_t end,
+static void EW_LOCAL(run_staged)(EW_RUN *run, const EW_LOCAL(vertices) *v, int window, size_t start, size_t end,
 	EW_REAL *sum)
 {
 	EW_REAL x[EW_STAGE + 2], y[EW_STAGE + 2];
-	const EW_REAL origin = EW_NAME(vertex_x)(v, 0);
+	const EW_REAL origin = EW_LOCAL(vertex_x)(v, 0);
 	while (start < end) {
-		size_t items = end - start < EW_STAGE ? end - start : EW_STAGE;
+		size_t items = end - start < EW_STAGE ? end - start : (size_t)EW_STAGE;
 		size_t vertices = items + (size_t)window - 1;
 		for (size_t k = 0; k < vertices; ++k) {
 			size_t i = start + k < v->n ? start + k : start + k - v->n;
-			x[k] = EW_NAME(vertex_x)(v, i);
-			y[k] = EW_NAME(vertex_y)(v, i);
+			x[k] = EW_LOCAL(vertex_x)(v, i);
+			y[k] = EW_LOCAL(vertex_y)(v, i);
 		}
 		run(x, y, origin, items, sum);
 		start += items;
@@ -63,14 +64,14 @@ static void EW_NAME(run_staged)(EW_RUN *run, const EW_NAME(vertices) *v, int win
 }
 
 /* Sums of all accumulators over all lanes. */
-static void EW_NAME(run_ring)(int id, const EW_NAME(vertices) *v, double *total)
+static void EW_LOCAL(run_ring)(int id, const EW_LOCAL(vertices) *v, double *total)
 {
-	const ew_shape *shape = &ew_shapes[id];
+	const ew_ring_shape *shape = &ew_ring_shapes[id];
 	const size_t cells = (size_t)shape->accumulators * EW_WIDTH;
 	const size_t reach = (size_t)shape->window - 1, items = v->n + 1 - reach;
 	const size_t direct = v->moved || v->stride != 1 || v->n < reach ? 0
 		: (v->n - reach) / EW_WIDTH * EW_WIDTH;
-	EW_RUN *run = EW_NAME(kernel)(id);
+	EW_RUN *run = EW_LOCAL(kernel)(id);
 	EW_REAL sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
 	double wide[EW_MAX_ACCUMULATORS * EW_WIDTH];
 	for (size_t i = 0; i < cells; ++i) {
@@ -78,11 +79,11 @@ static void EW_NAME(run_ring)(int id, const EW_NAME(vertices) *v, double *total)
 		wide[i] = 0;
 	}
 	for (size_t start = 0; start < items; start += EW_BLOCK) {
-		size_t end = items - start < EW_BLOCK ? items : start + EW_BLOCK;
+		size_t end = items - start < EW_BLOCK ? items : start + (size_t)EW_BLOCK;
 		size_t middle = direct < start ? start : direct < end ? direct : end;
 		if (middle > start)
-			run(v->x + start, v->y + start, EW_NAME(vertex_x)(v, 0), middle - start, sum);
-		EW_NAME(run_staged)(run, v, shape->window, middle, end, sum);
+			run(v->x + start, v->y + start, EW_LOCAL(vertex_x)(v, 0), middle - start, sum);
+		EW_LOCAL(run_staged)(run, v, shape->window, middle, end, sum);
 		for (size_t i = 0; i < cells && (EW_IS_FLOAT || end == items); ++i) {
 			wide[i] += (double)sum[i];
 			sum[i] = 0;
@@ -98,64 +99,64 @@ static void EW_NAME(run_ring)(int id, const EW_NAME(vertices) *v, double *total)
 }
 
 /* 0, or NaN if a coordinate is NaN or infinite. */
-static double EW_NAME(nothing)(const EW_NAME(vertices) *v)
+static double EW_LOCAL(nothing)(const EW_LOCAL(vertices) *v)
 {
 	double zero = 0;
 	for (size_t i = 0; i < v->n; ++i) {
-		double x = (double)EW_NAME(vertex_x)(v, i), y = (double)EW_NAME(vertex_y)(v, i);
+		double x = (double)EW_LOCAL(vertex_x)(v, i), y = (double)EW_LOCAL(vertex_y)(v, i);
 		zero += (x - x) + (y - y);
 	}
 	return zero;
 }
 
 /* The results of one ring in double; no region has fewer than three vertices. */
-static void EW_NAME(integrate)(int id, const EW_NAME(vertices) *v, double *out)
+static void EW_LOCAL(integrate)(int id, const EW_LOCAL(vertices) *v, double *out)
 {
 	double total[EW_MAX_ACCUMULATORS];
 	if (v->n < 3) {
-		double zero = EW_NAME(nothing)(v);
-		for (int j = 0; j < ew_shapes[id].outputs; ++j)
+		double zero = EW_LOCAL(nothing)(v);
+		for (int j = 0; j < ew_ring_shapes[id].outputs; ++j)
 			out[j] = zero;
 		return;
 	}
-	EW_NAME(run_ring)(id, v, total);
-	ew_shapes[id].finish(total, out);
+	EW_LOCAL(run_ring)(id, v, total);
+	ew_ring_shapes[id].finish(total, out);
 }
 
-static EW_NAME(vertices) EW_NAME(plain)(const EW_REAL *x, const EW_REAL *y, size_t stride, size_t n)
+static EW_LOCAL(vertices) EW_LOCAL(plain)(const EW_REAL *x, const EW_REAL *y, size_t stride, size_t n)
 {
-	EW_NAME(vertices) v = { x, y, stride, n, 0, 0, 0, 0, 0 };
+	EW_LOCAL(vertices) v = { x, y, stride, n, 0, 0, 0, 0, 0 };
 	return v;
 }
 
-static EW_REAL EW_NAME(integrate_one)(int id, const EW_REAL *x, const EW_REAL *y, size_t n)
+static EW_REAL EW_LOCAL(integrate_one)(int id, const EW_REAL *x, const EW_REAL *y, size_t n)
 {
 	double out[1];
-	EW_NAME(vertices) v = EW_NAME(plain)(x, y, 1, n);
-	EW_NAME(integrate)(id, &v, out);
+	EW_LOCAL(vertices) v = EW_LOCAL(plain)(x, y, 1, n);
+	EW_LOCAL(integrate)(id, &v, out);
 	return (EW_REAL)out[0];
 }
 
 #define EW_FUNCTION(function, id, edge, k) \
-	EW_REAL function(const EW_REAL *x, const EW_REAL *y, size_t n) { return EW_NAME(integrate_one)(id, x, y, n); }
+	EW_REAL function(const EW_REAL *x, const EW_REAL *y, size_t n) { return EW_LOCAL(integrate_one)(id, x, y, n); }
 EW_LIST_POLYNOMIALS(EW_FUNCTION)
 #undef EW_FUNCTION
 
 #ifdef EW_HAS_MONOMIALS
 EW_REAL EW_NAME(moment)(int m, int n_, const EW_REAL *x, const EW_REAL *y, size_t n)
 {
-	int id = ew_monomial_ring(m, n_);
-	return id < 0 ? (EW_REAL)NAN : EW_NAME(integrate_one)(id, x, y, n);
+	int id = ew_ring_of_monomial(m, n_);
+	return id < 0 ? (EW_REAL)NAN : EW_LOCAL(integrate_one)(id, x, y, n);
 }
 #endif
 
 #ifdef EW_MAX_DEGREE
-static int EW_NAME(all_moments)(int degree, const EW_NAME(vertices) *v, EW_REAL *out)
+static int EW_LOCAL(all_moments)(int degree, const EW_LOCAL(vertices) *v, EW_REAL *out)
 {
 	double result[EW_MAX_OUTPUTS];
 	if (degree < 0 || degree > EW_MAX_DEGREE)
 		return EW_BAD_DEGREE;
-	EW_NAME(integrate)(EW_RING_MOMENTS_0 + degree, v, result);
+	EW_LOCAL(integrate)(EW_RING_MOMENTS_0 + degree, v, result);
 	for (int j = 0; j < EW_MOMENTS(degree); ++j)
 		out[j] = (EW_REAL)result[j];
 	return EW_OK;
@@ -163,24 +164,24 @@ static int EW_NAME(all_moments)(int degree, const EW_NAME(vertices) *v, EW_REAL 
 
 int EW_NAME(moments)(int degree, const EW_REAL *x, const EW_REAL *y, size_t n, EW_REAL *out)
 {
-	EW_NAME(vertices) v = EW_NAME(plain)(x, y, 1, n);
-	return EW_NAME(all_moments)(degree, &v, out);
+	EW_LOCAL(vertices) v = EW_LOCAL(plain)(x, y, 1, n);
+	return EW_LOCAL(all_moments)(degree, &v, out);
 }
 
 int EW_NAME(moments_xy)(int degree, const EW_REAL *xy, size_t n, EW_REAL *out)
 {
-	EW_NAME(vertices) v = EW_NAME(plain)(xy, n ? xy + 1 : xy, 2, n);
-	return EW_NAME(all_moments)(degree, &v, out);
+	EW_LOCAL(vertices) v = EW_LOCAL(plain)(xy, n ? xy + 1 : xy, 2, n);
+	return EW_LOCAL(all_moments)(degree, &v, out);
 }
 
 int EW_NAME(moments_about)(int degree, const EW_REAL *x, const EW_REAL *y, size_t n, EW_REAL cx, EW_REAL cy,
 	EW_REAL *out)
 {
-	EW_NAME(vertices) v = EW_NAME(plain)(x, y, 1, n);
+	EW_LOCAL(vertices) v = EW_LOCAL(plain)(x, y, 1, n);
 	v.moved = 1;
 	v.cx = cx;
 	v.cy = cy;
-	return EW_NAME(all_moments)(degree, &v, out);
+	return EW_LOCAL(all_moments)(degree, &v, out);
 }
 
 int EW_NAME(translate_moments)(int degree, const EW_REAL *in, EW_REAL dx, EW_REAL dy, EW_REAL *out)
@@ -190,7 +191,7 @@ int EW_NAME(translate_moments)(int degree, const EW_REAL *in, EW_REAL dx, EW_REA
 		return EW_BAD_DEGREE;
 	for (int j = 0; j < EW_MOMENTS(degree); ++j)
 		moment[j] = (double)in[j];
-	ew_translate(degree, (double)dx, (double)dy, moment);
+	ew_ring_translate(degree, (double)dx, (double)dy, moment);
 	for (int j = 0; j < EW_MOMENTS(degree); ++j)
 		out[j] = (EW_REAL)moment[j];
 	return EW_OK;
@@ -198,45 +199,46 @@ int EW_NAME(translate_moments)(int degree, const EW_REAL *in, EW_REAL dx, EW_REA
 
 EW_REAL EW_NAME(area)(const EW_REAL *x, const EW_REAL *y, size_t n)
 {
-	return EW_NAME(integrate_one)(EW_RING_MOMENTS_0, x, y, n);
+	return EW_LOCAL(integrate_one)(EW_RING_MOMENTS_0, x, y, n);
 }
 #endif
 
 #if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 1
-/* Centroid less first vertex into d; 0 if the area is 0. Moves the vertices to the first one. */
-static int EW_NAME(local_centroid)(EW_NAME(vertices) *v, double d[2])
+/* Centroid less first vertex into d; returns the area. Moves the vertices to the first one. */
+static double EW_LOCAL(centre)(EW_LOCAL(vertices) *v, double d[2])
 {
 	double moment[3] = { 0, 0, 0 };
 	if (v->n) {
 		v->moved = 1;
 		v->cx = v->x[0];
 		v->cy = v->y[0];
-		EW_NAME(integrate)(EW_RING_MOMENTS_1, v, moment);
+		EW_LOCAL(integrate)(EW_RING_MOMENTS_1, v, moment);
 	}
 	d[0] = moment[1] / moment[0];
 	d[1] = moment[2] / moment[0];
 	if (moment[0] == 0)
 		d[0] = d[1] = (double)NAN;
-	return moment[0] != 0;
+	return moment[0];
 }
 
 int EW_NAME(centroid)(const EW_REAL *x, const EW_REAL *y, size_t n, EW_REAL c[2])
 {
-	EW_NAME(vertices) v = EW_NAME(plain)(x, y, 1, n);
+	EW_LOCAL(vertices) v = EW_LOCAL(plain)(x, y, 1, n);
 	double d[2];
-	int found = EW_NAME(local_centroid)(&v, d);
+	double area = EW_LOCAL(centre)(&v, d);
 	c[0] = (EW_REAL)((double)v.cx + d[0]);
 	c[1] = (EW_REAL)((double)v.cy + d[1]);
-	return found ? EW_OK : EW_ZERO_AREA;
+	return area == 0 ? EW_ZERO_AREA : EW_OK;
 }
 
 int EW_NAME(central_moments)(int degree, const EW_REAL *x, const EW_REAL *y, size_t n, EW_REAL c[2], EW_REAL *out)
 {
-	EW_NAME(vertices) v = EW_NAME(plain)(x, y, 1, n);
+	EW_LOCAL(vertices) v = EW_LOCAL(plain)(x, y, 1, n);
 	double d[2];
 	if (degree < 0 || degree > EW_MAX_DEGREE)
 		return EW_BAD_DEGREE;
-	if (!EW_NAME(local_centroid)(&v, d)) {
+	double area = EW_LOCAL(centre)(&v, d);
+	if (area == 0) {
 		c[0] = c[1] = (EW_REAL)NAN;
 		for (int j = 0; j < EW_MOMENTS(degree); ++j)
 			out[j] = (EW_REAL)NAN;
@@ -246,15 +248,17 @@ int EW_NAME(central_moments)(int degree, const EW_REAL *x, const EW_REAL *y, siz
 	c[1] = (EW_REAL)((double)v.cy + d[1]);
 	v.dx = (EW_REAL)d[0];
 	v.dy = (EW_REAL)d[1];
-	EW_NAME(all_moments)(degree, &v, out);
+	EW_LOCAL(all_moments)(degree, &v, out);
+	out[0] = (EW_REAL)area;                          /* better conditioned where the centroid lies far outside */
 	for (int j = 1; j < EW_MOMENTS(degree) && j < 3; ++j)
-		out[j] = out[j] == out[j] ? 0 : out[j];      /* by definition, unless NaN came in */
+		out[j] = out[j] == out[j] ? 0 : out[j];  /* by definition, unless NaN came in */
 	return EW_OK;
 }
 #endif
 
 #undef EW_REAL
 #undef EW_NAME
+#undef EW_LOCAL
 #undef EW_RUN
 #undef EW_WIDTH
 #undef EW_IS_FLOAT

@@ -1,6 +1,6 @@
 /* edgewise_runtime.h - what the files of the runtime share; not for users.
  *
- * SPDX-License-Identifier: 0BSD */
+ * Edgewise runtime, SPDX-License-Identifier: 0BSD */
 #ifndef EDGEWISE_RUNTIME_H
 #define EDGEWISE_RUNTIME_H
 
@@ -18,7 +18,7 @@ enum {
 extern "C" {
 #endif
 
-unsigned ew_current_target(void);  /* the forced target, or the best one: one bit */
+unsigned ew_cpu_target(void);  /* the forced target, or the best one: one bit */
 
 #ifdef __cplusplus
 }

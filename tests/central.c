@@ -127,7 +127,7 @@ static void local_random(Local *l, const Api *api, int i)
 	const size_t n = (size_t)random_int(3, 40);
 	l->ring = ring_new(n);
 	if (i % 2)
-		ring_star(&l->ring, away * random_real(-1, 1), away * random_real(-1, 1), 1);
+		ring_star_near(&l->ring, away, 1);
 	for (size_t j = 0; i % 2 == 0 && j < n; j++) {
 		l->ring.x[j] = away + random_real(-1, 1);
 		l->ring.y[j] = away + random_real(-1, 1);
@@ -147,7 +147,8 @@ static void expect_centroid(const Api *api, const Local *l, const void *c, long 
 		const double bound = centroid_error(api, l, axis, k)
 			+ 1.01 * u * fabs(l->exact[axis]);
 		const double error = error_of(get(api, c, axis), l->mean[axis]);
-		expect(error <= bound, "n = %zu: centroid[%d] = %.17g, exact %.17g, off by %g, allowed %g",
+		expect(error <= bound,
+			"n = %zu: centroid[%d] = %.17g, exact %.17g, off by %g, allowed %g",
 			l->ring.n, axis, get(api, c, axis), l->exact[axis], error, bound);
 	}
 }
@@ -162,7 +163,8 @@ static void test_centroid(const Api *api, const char *target)
 		local_compute(&l);
 		const long k = local_k(api, 1, l.ring.n);
 		if (well_defined(api, &l, k)) {
-			expect(api->centroid(l.ring.px, l.ring.py, l.ring.n, c) == EW_OK, "no EW_OK");
+			expect(api->centroid(l.ring.px, l.ring.py, l.ring.n, c) == EW_OK,
+				"no EW_OK");
 			expect_centroid(api, &l, c, k);
 		}
 		local_free(&l);
@@ -199,14 +201,16 @@ static void expect_central(const Api *api, const Local *l, int degree, const voi
 		for (int n = 0; m + n <= degree; n++) {
 			const double far = moved_weight(l, m, n, cx + dx, cy + dy);
 			const double about = 1.001 * mpq_get_d(l->about[ref_index(m, n)].weight);
-			const double bound = g * fmax(far, about) + (far - moved_weight(l, m, n, cx, cy))
+			const double bound = g * fmax(far, about)
+				+ (far - moved_weight(l, m, n, cx, cy))
 				+ ref_tiny(k, m + n, api->bits, l->ring.x, l->ring.y, l->ring.n);
 			const Ref *want = &l->central[ref_index(m, n)];
 			const double got = get(api, out, ref_index(m, n));
 			const double error = error_of(got, want->value);
-			expect(error <= bound, "n = %zu: central x%dy%d of degree %d = %.17g, exact %.17g, "
-				"off by %g, allowed %g", l->ring.n, m, n, degree, got, mpq_get_d(want->value), error,
-				bound);
+			expect(error <= bound,
+				"n = %zu: central x%dy%d of degree %d = %.17g, exact %.17g, "
+				"off by %g, allowed %g",
+				l->ring.n, m, n, degree, got, mpq_get_d(want->value), error, bound);
 			expect(m + n != 1 || got == 0, "first central moment is %g", got);
 		}
 	}
@@ -224,7 +228,8 @@ static void test_central(const Api *api, const char *target)
 			const long k = local_k(api, d, l.ring.n);
 			if (!well_defined(api, &l, k))
 				continue;
-			expect(api->central(d, l.ring.px, l.ring.py, l.ring.n, c, out) == EW_OK, "no EW_OK");
+			expect(api->central(d, l.ring.px, l.ring.py, l.ring.n, c, out) == EW_OK,
+				"no EW_OK");
 			expect_centroid(api, &l, c, k);
 			expect_central(api, &l, d, out, k);
 		}
@@ -303,12 +308,12 @@ static void expect_translated(const Api *api, const void *in, double dx, double 
 		memcpy(out, in, sizeof out);
 		expect(api->translate(d, out, dx, dy, out) == EW_OK, "no EW_OK in place");
 		for (int i = d + 1; i < MOMENTS; i++)
-			expect(i < ref_count(d) || get(api, out, i) == get(api, in, i), "degree %d wrote %d",
-				d, i);
+			expect(i < ref_count(d) || get(api, out, i) == get(api, in, i),
+				"degree %d wrote %d", d, i);
 		expect(api->translate(d, in, dx, dy, out) == EW_OK, "no EW_OK");
 		for (int i = 0; i < ref_count(d); i++)
-			expect_within(get(api, out, i), &want[i], exact ? 0 : 4 * d + 1, api->bits, 0,
-				"degree %d, moment %d moved by (%g, %g)", d, i, dx, dy);
+			expect_within(get(api, out, i), &want[i], exact ? 0 : 4 * d + 1, api->bits,
+				0, "degree %d, moment %d moved by (%g, %g)", d, i, dx, dy);
 	}
 	ref_free(want, MOMENTS);
 }
@@ -336,11 +341,12 @@ static void test_translate(const Api *api, const char *target)
 	check_end();
 }
 
-/* Moving the moments is moving the region: the sign of (dx,dy), and the binomials of the reference. */
+/* Moving the moments is moving the region: the sign of (dx,dy), and the reference's binomials. */
 static void test_moved_region(const Api *api, const char *target)
 {
 	const double x[] = { 0, 3, 4, 1 }, y[] = { 0, 1, 3, 2 };
-	const long k = ring_k(api, find_row("moments", EW_MAX_DEGREE, 0), 4) + 4 * EW_MAX_DEGREE + 1;
+	const Row *row = find_row("moments", EW_MAX_DEGREE, 0);
+	const long k = ring_k(api, row, 4) + 4 * EW_MAX_DEGREE + 1;
 	double in[MOMENTS], out[MOMENTS];
 	Ref *from = ref_new(MOMENTS), *to = ref_new(MOMENTS), *want = ref_new(MOMENTS);
 	Ring ring = ring_new(4), moved = ring_new(4);
@@ -362,7 +368,8 @@ static void test_moved_region(const Api *api, const char *target)
 	ref_translate(to, EW_MAX_DEGREE, from, dx, dy);
 	ref_ring(want, EW_MAX_DEGREE, moved.x, moved.y, 4);
 	for (int i = 0; i < MOMENTS; i++) {
-		expect(mpq_equal(to[i].value, want[i].value), "the reference moves moment %d elsewhere", i);
+		expect(mpq_equal(to[i].value, want[i].value),
+			"the reference moves moment %d elsewhere", i);
 		expect_within(get(api, out, i), &to[i], k, api->bits, 0, "moment %d", i);
 	}
 	check_end();

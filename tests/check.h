@@ -8,11 +8,13 @@
  *
  * The generator is reset by every test from the seed and the test's name, so a test draws the
  * same numbers whichever tests run before it, and a failure prints the seed to run it again with.
+ * (Two draws in one argument list would come in an order that is the compiler's.)
  * A crash inside a test is caught, charged to that test and ends the program.
  */
 #ifndef CHECK_H
 #define CHECK_H
 
+#include <math.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -52,12 +54,27 @@ static inline int random_int(int low, int high)
 	return low + (int)(random_bits() % (uint64_t)(high - low + 1));
 }
 
+/* Uniform in (-1, 1) times a random power of two, 2^low to 2^high. */
+static inline double random_scaled(int low, int high)
+{
+	const double v = random_real(-1, 1);
+	return ldexp(v, random_int(low, high));
+}
+
+/* Of either sign, and of size scale/2 to scale. */
+static inline double random_sized(double scale)
+{
+	const double v = random_real(0.5, 1) * scale;
+	return random_int(0, 1) ? v : -v;
+}
+
 static inline void check_crash(int number)
 {
 	char text[400];
 	const int length = snprintf(text, sizeof text,
-		"not ok %s: stopped by signal %d (again: %s %llu)\n%d passed, %d failed\n", check.name,
-		number, check.program, (unsigned long long)check.seed, check.passed, check.failures + 1);
+		"not ok %s: stopped by signal %d (again: %s %llu)\n%d passed, %d failed\n",
+		check.name, number, check.program, (unsigned long long)check.seed, check.passed,
+		check.failures + 1);
 	if (write(STDOUT_FILENO, text, (size_t)length) < 0)
 		_exit(2);
 	_exit(1);

@@ -47,7 +47,7 @@ static void uniform(double e[4], int top)
 static void mixed(double e[4], int top)
 {
 	for (int i = 0; i < 4; i++)
-		e[i] = ldexp(random_real(-2, 2), random_int(-top, top));
+		e[i] = 2 * random_scaled(-top, top);
 }
 
 static void integers(double e[4], int top)
@@ -66,7 +66,7 @@ static void axes(double e[4], int top)
 
 static void collinear(double e[4], int top)
 {
-	const double t = ldexp(random_real(-1, 1), random_int(-top / 2, 0));
+	const double t = random_scaled(-top / 2, 0);
 	e[0] = random_real(-2, 2);
 	e[1] = random_real(-2, 2);
 	e[2] = t * e[0];
@@ -138,8 +138,8 @@ static void test_symmetry(const Line *line)
 		const double back[4] = { e[2], e[3], e[0], e[1] };
 		const double point[4] = { e[0], e[1], e[0], e[1] };
 		const double forward = evaluate(line, e), reversed = evaluate(line, back);
-		expect(same_bits(forward, -reversed), "edge (%a, %a) (%a, %a) is %a, reversed %a", e[0],
-			e[1], e[2], e[3], forward, reversed);
+		expect(same_bits(forward, -reversed), "edge (%a, %a) (%a, %a) is %a, reversed %a",
+			e[0], e[1], e[2], e[3], forward, reversed);
 		expect(evaluate(line, point) == 0, "repeated vertex (%a, %a) is %a", e[0], e[1],
 			evaluate(line, point));
 	}
@@ -150,7 +150,8 @@ static void test_integers(const Line *line)
 {
 	const int degree = line->m + line->n;
 	int most = 1;
-	while (largest_sum(degree) * pow(most + 1, degree + 2) < ldexp(1, line->bits - 1) && most < 1000)
+	while (largest_sum(degree) * pow(most + 1, degree + 2) < ldexp(1, line->bits - 1)
+		&& most < 1000)
 		most++;
 	Ref *want = ref_new(1);
 	for (int i = 0; i < EDGES_PER_KIND; i++) {
@@ -173,8 +174,8 @@ static void test_extremes(const Line *line)
 			: small_scale(degree, line->bits);
 		double e[4];
 		for (int j = 0; j < 4; j++)
-			e[j] = round_to(line->bits, random_real(0.5, 1) * (random_int(0, 1) ? scale : -scale));
-		/* a cancelling result may be subnormal: its own last roundings, nothing amplified */
+			e[j] = round_to(line->bits, random_sized(scale));
+		/* a cancelling result may be subnormal: its last roundings, nothing amplified */
 		const double tiny = i % 2 ? 0 : 4 * (line->bits == 24 ? 0x1p-149 : 0x1p-1074);
 		edge_within(line, "extreme", e, tiny);
 	}
@@ -188,8 +189,8 @@ static void test_nonfinite(const Line *line)
 		for (int j = 0; j < 4; j++)
 			e[j] = random_int(-2, 2);
 		e[i % 4] = bad[i / 4 % 3];
-		expect(!isfinite(evaluate(line, e)), "edge (%g, %g) (%g, %g) is finite", e[0], e[1], e[2],
-			e[3]);
+		expect(!isfinite(evaluate(line, e)), "edge (%g, %g) (%g, %g) is finite", e[0], e[1],
+			e[2], e[3]);
 	}
 }
 
@@ -211,17 +212,20 @@ static void test_list(void)
 	for (int bits = 24; bits <= 53; bits += 29) {
 		int seen[EW_MOMENTS(EW_MAX_DEGREE)] = { 0 };
 		for (int i = 0; i < LINES; i++) {
-			if (lines[i].bits != bits || !expect(lines[i].m + lines[i].n <= EW_MAX_DEGREE,
+			if (lines[i].bits != bits
+				|| !expect(lines[i].m + lines[i].n <= EW_MAX_DEGREE,
 					"%s is beyond the degree", lines[i].name))
 				continue;
 			seen[EW_INDEX(lines[i].m, lines[i].n)]++;
 		}
 		for (int i = 0; i < EW_MOMENTS(EW_MAX_DEGREE); i++)
-			expect(seen[i] == 1, "monomial %d is there %d times in %d bits", i, seen[i], bits);
+			expect(seen[i] == 1, "monomial %d is there %d times in %d bits", i, seen[i],
+				bits);
 	}
 	for (int d = 0; d <= EW_MAX_DEGREE; d++) {
 		for (int n = 0; n <= d; n++)
-			expect(EW_INDEX(d - n, n) == ref_index(d - n, n), "index of x%dy%d", d - n, n);
+			expect(EW_INDEX(d - n, n) == ref_index(d - n, n), "index of x%dy%d", d - n,
+				n);
 		expect(EW_MOMENTS(d) == ref_count(d), "number of moments of degree %d", d);
 	}
 	check_end();
@@ -282,28 +286,31 @@ static void test_reference(void)
 {
 	const double tx[] = { 0, 1, 0 }, ty[] = { 0, 0, 1 };
 	const double rx[] = { 0, 3, 3, 0 }, ry[] = { 0, 0, 2, 2 };
-	Ref *triangle = ref_new(ref_count(8)), *rectangle = ref_new(ref_count(8)), *one = ref_new(1);
+	Ref *triangle = ref_new(ref_count(8)), *rectangle = ref_new(ref_count(8));
+	Ref *one = ref_new(1);
 	check_begin("reference");
 	ref_ring(triangle, 8, tx, ty, 3);
 	ref_ring(rectangle, 8, rx, ry, 4);
 	for (int m = 0; m <= 8; m++) {
 		for (int n = 0; m + n <= 8; n++) {
 			const int at = ref_index(m, n);
-			expect_exact(triangle[at].value, factorial(m) * factorial(n), factorial(m + n + 2),
-				"triangle", m, n);
-			expect_exact(rectangle[at].value, (unsigned long)(pow(3, m + 1) * pow(2, n + 1)),
+			expect_exact(triangle[at].value, factorial(m) * factorial(n),
+				factorial(m + n + 2), "triangle", m, n);
+			expect_exact(rectangle[at].value,
+				(unsigned long)(pow(3, m + 1) * pow(2, n + 1)),
 				(unsigned long)((m + 1) * (n + 1)), "rectangle", m, n);
-			/* at (1,-1), (-1,1) every term is 1 times its binomials, and the cross is 0 */
+			/* at (1,-1), (-1,1) every term is 1 times its binomials, the cross 0 */
 			ref_line(one, m, n, (const double[4]){ 1, -1, -1, 1 });
 			expect_exact(one->value, 0, 1, "cross", m, n);
 			expect_exact(one->weight, 2, (unsigned long)(m + n + 2), "weight", m, n);
-			/* at (1,-1), (2,0) only q = 0 is left: sum over p of C(m+n-p,n) 2^p, cross 2 */
+			/* at (1,-1), (2,0) only q = 0 is left: sum of C(m+n-p,n) 2^p, cross 2 */
 			unsigned long sum = 0;
 			for (int p = 0; p <= m; p++)
-				sum += (factorial(m + n - p) / factorial(n) / factorial(m - p)) << p;
+				sum += (factorial(m + n - p) / factorial(n) / factorial(m - p))
+					<< p;
 			ref_line(one, m, n, (const double[4]){ 1, -1, 2, 0 });
-			expect_exact(one->weight, 2 * sum * factorial(m) * factorial(n), factorial(m + n + 2),
-				"one-sided weight", m, n);
+			expect_exact(one->weight, 2 * sum * factorial(m) * factorial(n),
+				factorial(m + n + 2), "one-sided weight", m, n);
 		}
 	}
 	check_end();

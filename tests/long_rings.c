@@ -103,7 +103,8 @@ static void set_sums(Sums *s, const Ring *r, double cx, double cy)
 		const Wide x0 = (Wide)(r->x[i] - cx), y0 = (Wide)(r->y[i] - cy);
 		const Wide x1 = (Wide)(r->x[j] - cx), y1 = (Wide)(r->y[j] - cy);
 		add_edge(s->value, x0 * y1 - x1 * y0, x0, y0, x1, y1);
-		const Wide a0 = magnitude(x0), b0 = magnitude(y0), a1 = magnitude(x1), b1 = magnitude(y1);
+		const Wide a0 = magnitude(x0), b0 = magnitude(y0);
+		const Wide a1 = magnitude(x1), b1 = magnitude(y1);
 		add_edge(s->weight, a0 * b1 + a1 * b0, a0, b0, a1, b1);
 	}
 }
@@ -161,8 +162,10 @@ static void test_sums(void)
 	Ref *got = sums_refs(&s);
 	ref_ring(want, 2, brief.x, brief.y, brief.n);
 	for (int i = 0; i < SUMS; i++)
-		expect(mpq_equal(got[i].value, want[i].value) && mpq_equal(got[i].weight, want[i].weight),
-			"moment %d is %g, reference %g", i, mpq_get_d(got[i].value), mpq_get_d(want[i].value));
+		expect(mpq_equal(got[i].value, want[i].value)
+				&& mpq_equal(got[i].weight, want[i].weight),
+			"moment %d is %g, reference %g", i, mpq_get_d(got[i].value),
+			mpq_get_d(want[i].value));
 	check_end();
 	ring_free(&brief);
 	ref_free(got, SUMS);
@@ -208,8 +211,9 @@ static void expect_centroid(const Api *api)
 		const double want = mean + (axis ? ring.y[0] : ring.x[0]);
 		const double bound = (g * mpq_get_d(local[1 + axis].weight) + fabs(mean) * weight)
 			/ (fabs(size) - weight) + 0x1p-22 * (fabs(mean) + fabs(want));
-		expect(fabs(get(api, c, axis) - want) <= bound, "centroid[%d] is %.9g, exact %.9g, allowed %g",
-			axis, get(api, c, axis), want, bound);
+		expect(fabs(get(api, c, axis) - want) <= bound,
+			"centroid[%d] is %.9g, exact %.9g, allowed %g", axis, get(api, c, axis),
+			want, bound);
 	}
 }
 
@@ -227,13 +231,16 @@ static void test_longest(const Api *api, const char *target)
 		api->moments(d, ring.px, ring.py, ring.n, out);
 		api->xy(d, ring.pxy, ring.n, other);
 		for (int i = 0; i < ref_count(d); i++) {
-			expect_within((double)out[i], d ? &raw[i] : vertex, k, 24, 0, "degree %d, moment %d", d, i);
-			expect(out[i] == other[i], "degree %d: interleaved moment %d is another", d, i);
+			expect_within((double)out[i], d ? &raw[i] : vertex, k, 24, 0,
+				"degree %d, moment %d", d, i);
+			expect(out[i] == other[i], "degree %d: interleaved moment %d is another", d,
+				i);
 		}
 		for (int n = 0; n <= d; n++)
 			expect_within(api->moment(d - n, n, ring.px, ring.py, ring.n),
 				d ? &raw[ref_index(d - n, n)] : vertex,
-				ring_k(api, find_row("monomial", d - n, n), ring.n), 24, 0, "x%dy%d", d - n, n);
+				ring_k(api, find_row("monomial", d - n, n), ring.n), 24, 0,
+				"x%dy%d", d - n, n);
 	}
 	expect_centroid(api);
 	check_end();

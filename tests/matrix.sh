@@ -48,7 +48,7 @@ combinations() {
 			echo "$cc -std=c11 $level"
 			echo "$cc -std=c17 $level"
 		done
-		for level in -O1 -O2 -O3; do
+		for level in -O2 -O3; do
 			echo "$cc -std=gnu11 $level -march=native $contract"
 			has "$cxx" && echo "$cxx -x c++ -std=c++17 $level -march=native $contract"
 		done
@@ -113,7 +113,11 @@ test_tcc() {
 
 test_seconds gcc
 test_seconds clang
-[ -s "$work/want" ] || { not_ok matrix "no compiler builds $build/emitted"; echo "$passed passed, $failed failed"; exit 1; }
+if [ ! -s "$work/want" ]; then
+	echo "not ok matrix: no compiler builds $build/emitted"
+	echo "0 passed, 1 failed"
+	exit 1
+fi
 grep -q '^fma' "$work/want" || echo "skip bits of fma: this CPU has no fused multiply-add"
 for cc in gcc g++ clang clang++; do
 	has $cc || echo "skip $cc: not installed"

@@ -30,7 +30,7 @@ enum { COUNT = (int)(sizeof polynomials / sizeof *polynomials), LONGEST = 100, D
 #define BOUND(id, family, m, n, accumulators, outputs, k, r) { k, r },
 static const struct { int k, r; } ring_bound[] = { EW_RINGS(BOUND) };
 #define EDGE_BOUND(function, id, edge, k) [id] = k,
-static const int edge_bound[EW_RING_COUNT] = { EW_POLYNOMIALS_DOUBLE(EDGE_BOUND) };
+static const int edge_bound[EW_RINGS_COUNT] = { EW_POLYNOMIALS_DOUBLE(EDGE_BOUND) };
 
 /* Value and weight of the polynomial from those of the monomials. */
 static void combine(Ref *out, const Polynomial *p, const Ref *moment)

@@ -245,7 +245,8 @@ void ref_ring(Ref *out, int degree, const double *x, const double *y, size_t n)
 	}
 	for (int d = 0; d <= degree; d++) {
 		for (int i = ref_index(d, 0); i <= ref_index(0, d); i++) {
-			set_quotient(out[i].value, value[i], lcm * (unsigned long)(d + 2), shift * (d + 2));
+			set_quotient(out[i].value, value[i], lcm * (unsigned long)(d + 2),
+				shift * (d + 2));
 			set_quotient(out[i].weight, weight[i], lcm * (unsigned long)(d + 2),
 				shift * (d + 2));
 		}
@@ -301,10 +302,12 @@ static void set_common(mpz_t *out, mpz_t denominator, int count, const Ref *in, 
 {
 	mpz_set_ui(denominator, 1);
 	for (int i = 0; i < count; i++)
-		mpz_lcm(denominator, denominator, mpq_denref(positive ? in[i].weight : in[i].value));
+		mpz_lcm(denominator, denominator,
+			mpq_denref(positive ? in[i].weight : in[i].value));
 	for (int i = 0; i < count; i++) {
 		mpz_init(out[i]);
-		mpz_divexact(out[i], denominator, mpq_denref(positive ? in[i].weight : in[i].value));
+		mpz_divexact(out[i], denominator,
+			mpq_denref(positive ? in[i].weight : in[i].value));
 		mpz_mul(out[i], out[i], mpq_numref(positive ? in[i].weight : in[i].value));
 	}
 }

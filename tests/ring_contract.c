@@ -1,10 +1,10 @@
 /* What the ring functions promise besides their numbers.
  *
  * They read nothing beyond the n vertices and write nothing beyond the moments asked for: arrays
- * end or begin at an inaccessible page, inputs are read-only pages, and every output stands between
- * canaries. They work at any element alignment. NaN or infinity in any coordinate makes every moment
- * NaN or infinite, since each coordinate is a factor of the cross product of its two edges. A degree
- * out of range is refused and writes nothing. A target is forced, and the forced one is really
+ * end or begin at an inaccessible page, inputs are read-only pages, and every output stands
+ * between canaries. They work at any element alignment. NaN or infinity in any coordinate makes
+ * every moment NaN or infinite, since each coordinate is a factor of the cross product of its two
+ * edges. A degree out of range is refused and writes nothing. A target is forced, and the forced one is really
  * used: portable and fma differ in some bits, and a refused choice leaves them as they were.
  */
 #define _DEFAULT_SOURCE
@@ -121,15 +121,17 @@ static void expect_guarded(const Api *api, Guarded g[4], size_t n, int degree)
 		input.in = guarded_copy(&g[3], some_moments, (size_t)ref_count(degree) * api->size,
 			places & 8);
 		run_all(api, &input, degree, (char *)got);
-		expect(same_numbers(api, want, got, count), "n = %zu, degree %d: other bits at places %d", n,
-			degree, places);
+		expect(same_numbers(api, want, got, count),
+			"n = %zu, degree %d: other bits at places %d", n, degree, places);
 	}
 	ring_free(&ring);
 }
 
 static void test_guards(const Api *api, const char *target)
 {
-	static const size_t longer[] = { 63, 64, 65, 255, 256, 257, 1023, 1024, 1025, 1100, 2049, 2050 };
+	static const size_t longer[] = {
+		63, 64, 65, 255, 256, 257, 1023, 1024, 1025, 1100, 2049, 2050
+	};
 	Guarded g[4];
 	check_begin("guard pages and read-only inputs, %s, %s", api->name, target);
 	for (int i = 0; i < 4; i++)
@@ -165,8 +167,8 @@ static void expect_written(const Api *api, int count, const char *what, int degr
 	const size_t bytes = (size_t)count * api->size;
 	for (size_t i = 0; i < sizeof canvas; i++) {
 		if (i < MARGIN || i >= MARGIN + bytes)
-			expect(canvas[i] == CANARY, "%s of degree %d writes at byte %ld of %zu", what, degree,
-				(long)i - MARGIN, bytes);
+			expect(canvas[i] == CANARY, "%s of degree %d writes at byte %ld of %zu",
+				what, degree, (long)i - MARGIN, bytes);
 	}
 	for (int i = 0; i < count; i++) {
 		const unsigned char *element = canvas + MARGIN + (size_t)i * api->size;
@@ -216,7 +218,9 @@ static void test_alignment(const Api *api, const char *target)
 	for (size_t i = 0; i < STEPS * STEPS; i++) {
 		Ring ring = random_ring(api, i % 50 + 3);
 		Input r = input_of(&ring);
-		const size_t shift[4] = { i % STEPS, i / STEPS, (i + 5) % STEPS, (3 * i + 1) % STEPS };
+		const size_t shift[4] = {
+			i % STEPS, i / STEPS, (i + 5) % STEPS, (3 * i + 1) % STEPS
+		};
 		const int degree = (int)(i % (EW_MAX_DEGREE + 1));
 		const int count = run_all(api, &r, degree, (char *)want);
 		r.x = memcpy(at[0] + shift[0] * api->size, ring.px, ring.n * api->size);
@@ -225,8 +229,8 @@ static void test_alignment(const Api *api, const char *target)
 		r.in = memcpy(at[3] + shift[3] * api->size, some_moments, sizeof some_moments);
 		char *got = at[4] + shift[3] * api->size;
 		run_all(api, &r, degree, got);
-		expect(same_numbers(api, want, got, count), "n = %zu, degree %d: other bits when shifted",
-			ring.n, degree);
+		expect(same_numbers(api, want, got, count),
+			"n = %zu, degree %d: other bits when shifted", ring.n, degree);
 		ring_free(&ring);
 	}
 	check_end();
@@ -240,23 +244,25 @@ static void expect_nonfinite(const Api *api, const Ring *ring, int degree, const
 	const size_t n = ring->n;
 	api->moments(degree, ring->px, ring->py, n, out);
 	for (int i = 0; i < ref_count(degree); i++)
-		expect(!isfinite(get(api, out, i)), "%s, n = %zu: moment %d of degree %d is %g", what, n, i,
-			degree, get(api, out, i));
+		expect(!isfinite(get(api, out, i)), "%s, n = %zu: moment %d of degree %d is %g",
+			what, n, i, degree, get(api, out, i));
 	api->xy(degree, ring->pxy, n, out);
 	for (int i = 0; i < ref_count(degree); i++)
-		expect(!isfinite(get(api, out, i)), "%s, n = %zu: interleaved moment %d is finite", what, n,
-			i);
+		expect(!isfinite(get(api, out, i)), "%s, n = %zu: interleaved moment %d is finite",
+			what, n, i);
 	api->about(degree, ring->px, ring->py, n, 1, 2, out);
 	for (int i = 0; i < ref_count(degree); i++)
-		expect(!isfinite(get(api, out, i)), "%s, n = %zu: moment %d about (1,2) is finite", what, n,
-			i);
+		expect(!isfinite(get(api, out, i)), "%s, n = %zu: moment %d about (1,2) is finite",
+			what, n, i);
 	for (int i = 0; i <= degree; i++)
 		expect(!isfinite(api->moment(degree - i, i, ring->px, ring->py, n)),
 			"%s, n = %zu: x%dy%d is finite", what, n, degree - i, i);
 	api->central(degree, ring->px, ring->py, n, c, out);
-	expect(!isfinite(get(api, c, 0)) && !isfinite(get(api, c, 1)), "%s: centre is finite", what);
+	expect(!isfinite(get(api, c, 0)) && !isfinite(get(api, c, 1)), "%s: centre is finite",
+		what);
 	for (int i = 0; i < ref_count(degree); i++)
-		expect(!isfinite(get(api, out, i)), "%s, n = %zu: central moment %d is finite", what, n, i);
+		expect(!isfinite(get(api, out, i)), "%s, n = %zu: central moment %d is finite",
+			what, n, i);
 }
 
 static void test_nonfinite(const Api *api, const char *target)
@@ -275,7 +281,8 @@ static void test_nonfinite(const Api *api, const char *target)
 				ring_pack(api, &ring);
 				for (int d = 0; d <= EW_MAX_DEGREE; d++)
 					expect_nonfinite(api, &ring, d, b ? "infinity" : "NaN");
-				expect(!isfinite(api->area(ring.px, ring.py, n)), "n = %zu: area is finite", n);
+				expect(!isfinite(api->area(ring.px, ring.py, n)),
+					"n = %zu: area is finite", n);
 				api->centroid(ring.px, ring.py, n, c);
 				expect(!isfinite(get(api, c, 0)) && !isfinite(get(api, c, 1)),
 					"n = %zu: centroid is finite", n);
@@ -295,14 +302,17 @@ static void test_nonfinite_parameters(const Api *api, const char *target)
 	for (int i = 0; i < 4; i++) {
 		const double bad = i / 2 ? INFINITY : NAN;
 		for (int d = 0; d <= EW_MAX_DEGREE; d++) {
-			api->about(d, ring.px, ring.py, ring.n, i % 2 ? bad : 0, i % 2 ? 0 : bad, out);
+			api->about(
+				d, ring.px, ring.py, ring.n, i % 2 ? bad : 0, i % 2 ? 0 : bad, out);
 			for (int j = 0; j < ref_count(d); j++)
-				expect(!isfinite(get(api, out, j)), "moment %d about a bad centre is finite", j);
+				expect(!isfinite(get(api, out, j)),
+					"moment %d about a bad centre is finite", j);
 		}
 		put(api, in, 0, bad);
 		api->translate(2, in, 1, 2, out);
 		for (int j = 0; j < ref_count(2); j++)
-			expect(!isfinite(get(api, out, j)), "moment %d from a bad area is finite", j);
+			expect(!isfinite(get(api, out, j)), "moment %d from a bad area is finite",
+				j);
 		put(api, in, 0, 1);
 		api->translate(1, in, bad, 2, out);
 		expect(!isfinite(get(api, out, 1)) && get(api, out, 2) == 2, "moved by a bad dx");
@@ -321,20 +331,25 @@ static void test_bad_degree(const Api *api, const char *target)
 		for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
 			const int d = bad[i];
 			char *out = canvas_new();
-			const bool refused = api->moments(d, ring.px, ring.py, n, out) == EW_BAD_DEGREE
+			const bool refused =
+				api->moments(d, ring.px, ring.py, n, out) == EW_BAD_DEGREE
 				&& api->about(d, ring.px, ring.py, n, 0, 0, out) == EW_BAD_DEGREE
 				&& api->xy(d, ring.pxy, n, out) == EW_BAD_DEGREE
 				&& api->translate(d, some_moments, 1, 1, out) == EW_BAD_DEGREE
-				&& api->central(d, ring.px, ring.py, n, out, out + 16) == EW_BAD_DEGREE;
+				&& api->central(d, ring.px, ring.py, n, out, out + 16)
+					== EW_BAD_DEGREE;
 			expect(refused, "degree %d is not refused", d);
 			expect_written(api, 0, "a refused call", d);
 			for (int m = 0; m <= 9; m++)
 				expect(isnan(api->moment(m, d, ring.px, ring.py, n))
-					&& isnan(api->moment(d, m, ring.px, ring.py, n)), "x%dy%d is a number", m, d);
+						&& isnan(api->moment(d, m, ring.px, ring.py, n)),
+					"x%dy%d is a number", m, d);
 		}
 		expect(isnan(api->moment(5, 4, ring.px, ring.py, n)), "x5y4 is a number");
-		expect(isnan(api->moment(INT_MAX, INT_MAX, ring.px, ring.py, n)), "a huge monomial exists");
-		expect(isnan(api->moment(INT_MAX, INT_MIN, ring.px, ring.py, n)), "a wild monomial exists");
+		expect(isnan(api->moment(INT_MAX, INT_MAX, ring.px, ring.py, n)),
+			"a huge monomial exists");
+		expect(isnan(api->moment(INT_MAX, INT_MIN, ring.px, ring.py, n)),
+			"a wild monomial exists");
 		expect(isnan(api->moment(9, -1, ring.px, ring.py, n)), "x9y-1 is a number");
 		ring_free(&ring);
 	}
@@ -378,18 +393,22 @@ static void test_targets(void)
 		if (targets & bit)
 			highest = bit;
 		else
-			expect(ew_use_target(bit) == EW_UNSUPPORTED, "target %#x is not refused", bit);
+			expect(ew_use_target(bit) == EW_UNSUPPORTED, "target %#x is not refused",
+				bit);
 	}
-	expect(ew_use_target(highest) == EW_OK && digest() == best, "the best target is not the last");
+	expect(ew_use_target(highest) == EW_OK && digest() == best,
+		"the best target is not the last");
 	for (unsigned bit = 1; bit; bit <<= 1) {
 		if (!(targets & bit))
 			continue;
 		expect(ew_use_target(bit) == EW_OK, "target %#x is refused", bit);
 		const uint64_t forced = digest();
-		expect(bit == EW_PORTABLE || forced == best, "%s has other bits", ew_target_name(bit));
+		expect(bit == EW_PORTABLE || forced == best, "%s has other bits",
+			ew_target_name(bit));
 		expect(bit != EW_PORTABLE || targets == EW_PORTABLE || forced != best,
 			"forcing portable changes nothing");
-		expect(ew_use_target(~targets) == EW_UNSUPPORTED, "unknown targets are not refused");
+		expect(ew_use_target(~targets) == EW_UNSUPPORTED,
+			"unknown targets are not refused");
 		expect(ew_use_target(bit | ~targets) == EW_UNSUPPORTED, "a mixture is not refused");
 		expect(ew_use_target(targets) == (targets & (targets - 1) ? EW_UNSUPPORTED : EW_OK),
 			"several targets are not refused");
@@ -404,7 +423,8 @@ static void test_names(void)
 	check_begin("names of targets");
 	expect(strcmp(ew_target_name(EW_PORTABLE), "portable") == 0, "portable is called %s",
 		ew_target_name(EW_PORTABLE));
-	expect(strcmp(ew_target_name(EW_FMA), "fma") == 0, "fma is called %s", ew_target_name(EW_FMA));
+	expect(strcmp(ew_target_name(EW_FMA), "fma") == 0, "fma is called %s",
+		ew_target_name(EW_FMA));
 	expect(strcmp(ew_target_name(0), "unknown") == 0, "0 has a name");
 	expect(strcmp(ew_target_name(3), "unknown") == 0, "3 has a name");
 	expect(strcmp(ew_target_name(0x80000000u), "unknown") == 0, "the highest bit has a name");

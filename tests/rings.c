@@ -35,7 +35,7 @@ static void fill_random(Ring *ring, const Api *api)
 static void fill_star(Ring *ring, const Api *api)
 {
 	(void)api;
-	ring_star(ring, random_real(-1, 1), random_real(-1, 1), 1);
+	ring_star_near(ring, 1, 1);
 }
 
 static void fill_clockwise(Ring *ring, const Api *api)
@@ -65,8 +65,8 @@ static void fill_mixed(Ring *ring, const Api *api)
 {
 	const int top = api->bits == 24 ? 8 : 20;
 	for (size_t i = 0; i < ring->n; i++) {
-		ring->x[i] = ldexp(random_real(-1, 1), random_int(-top, top));
-		ring->y[i] = ldexp(random_real(-1, 1), random_int(-top, top));
+		ring->x[i] = random_scaled(-top, top);
+		ring->y[i] = random_scaled(-top, top);
 	}
 }
 
@@ -134,14 +134,16 @@ static void make_cases(void)
 		for (int i = 0; i < CASES; i++) {
 			Case *c = &cases[a][i];
 			make_case(c, &apis[a], i % KINDS, i / KINDS);
-			expect(mpq_equal(c->moments->value, c->area->value), "two areas of a %s ring of %zu",
-				c->kind, c->ring.n);
+			expect(mpq_equal(c->moments->value, c->area->value),
+				"two areas of a %s ring of %zu", c->kind, c->ring.n);
 			if (c->ring.n < 3 || strcmp(c->kind, "collinear") == 0)
 				expect(mpq_sgn(c->area->value) == 0, "area of a %s ring", c->kind);
 			if (c->ring.n >= 3 && strcmp(c->kind, "star") == 0)
-				expect(mpq_sgn(c->area->value) > 0, "area of a star is not positive");
+				expect(mpq_sgn(c->area->value) > 0,
+					"area of a star is not positive");
 			if (c->ring.n >= 3 && strcmp(c->kind, "clockwise") == 0)
-				expect(mpq_sgn(c->area->value) < 0, "area of a clockwise star is not negative");
+				expect(mpq_sgn(c->area->value) < 0,
+					"area of a clockwise star is not negative");
 		}
 	}
 	check_end();
@@ -185,8 +187,9 @@ static void expect_same(const Api *api, const void *a, const void *b, int count,
 	size_t n)
 {
 	for (int i = 0; i < count; i++) {
-		expect(same_bits(get(api, a, i), get(api, b, i)), "%s, n = %zu: moment %d is %a, was %a",
-			what, n, i, get(api, b, i), get(api, a, i));
+		expect(same_bits(get(api, a, i), get(api, b, i)),
+			"%s, n = %zu: moment %d is %a, was %a", what, n, i, get(api, b, i),
+			get(api, a, i));
 	}
 }
 
@@ -203,7 +206,8 @@ static void test_moments(const Api *api, const char *target)
 		const Case *c = &cases_of(api)[i];
 		const Ring *ring = &c->ring;
 		for (int d = 0; d <= EW_MAX_DEGREE; d++) {
-			expect(api->moments(d, ring->px, ring->py, ring->n, out) == EW_OK, "no EW_OK");
+			expect(api->moments(d, ring->px, ring->py, ring->n, out) == EW_OK,
+				"no EW_OK");
 			moments_within(api, d, ring, c->moments, c->area, out, c->kind);
 			expect(api->xy(d, ring->pxy, ring->n, other) == EW_OK, "no EW_OK from xy");
 			expect_same(api, out, other, ref_count(d), "interleaved", ring->n);
@@ -223,7 +227,8 @@ static void test_monomials(const Api *api, const char *target)
 		const Ring *ring = &c->ring;
 		for (int m = 0; m <= EW_MAX_DEGREE; m++) {
 			for (int n = 0; m + n <= EW_MAX_DEGREE; n++)
-				moment_within(api, find_row("monomial", m, n), ring, c->moments, c->area, m, n,
+				moment_within(api, find_row("monomial", m, n), ring, c->moments,
+					c->area, m, n,
 					api->moment(m, n, ring->px, ring->py, ring->n), c->kind);
 		}
 		moment_within(api, find_row("moments", 0, 0), ring, c->moments, c->area, 0, 0,
@@ -258,7 +263,8 @@ static void test_about(const Api *api, const char *target)
 		ref_ring(moments, EW_MAX_DEGREE, moved.x, moved.y, moved.n);
 		ref_area(area, moved.x, moved.y, moved.n);
 		for (int d = 0; d <= EW_MAX_DEGREE; d++) {
-			expect(api->about(d, ring->px, ring->py, ring->n, cx, cy, out) == EW_OK, "no EW_OK");
+			expect(api->about(d, ring->px, ring->py, ring->n, cx, cy, out) == EW_OK,
+				"no EW_OK");
 			moments_within(api, d, &moved, moments, area, out, "about a centre");
 			api->moments(d, moved.px, moved.py, moved.n, want);
 			expect_same(api, want, out, ref_count(d), "about a centre", ring->n);
@@ -313,16 +319,18 @@ static void test_holes(const Api *api, const char *target)
 	for (int i = 0; i < MOMENTS; i++) {
 		mpq_add(sum[i].value, sum[i].value, part[i].value);
 		mpq_add(sum[i].weight, sum[i].weight, part[i].weight);
-		expect_within(get(api, a, i) + get(api, b, i), &sum[i], ring_k(api, row, 4) + 1, api->bits,
-			0, "moment %d of two rings", i);
+		expect_within(get(api, a, i) + get(api, b, i), &sum[i], ring_k(api, row, 4) + 1,
+			api->bits, 0, "moment %d of two rings", i);
 		expect_within(get(api, c, i), &whole[i], ring_k(api, row, 10), api->bits, 0,
 			"moment %d of the bridged ring", i);
 	}
 	for (int m = 0; m <= EW_MAX_DEGREE; m++) {
 		for (int n = 0; m + n <= EW_MAX_DEGREE; n++) {
 			set_holed(want, m, n);
-			expect(mpq_equal(sum[ref_index(m, n)].value, want), "exact x%dy%d of two rings", m, n);
-			expect(mpq_equal(whole[ref_index(m, n)].value, want), "exact x%dy%d, bridged", m, n);
+			expect(mpq_equal(sum[ref_index(m, n)].value, want),
+				"exact x%dy%d of two rings", m, n);
+			expect(mpq_equal(whole[ref_index(m, n)].value, want),
+				"exact x%dy%d, bridged", m, n);
 		}
 	}
 	expect(api->area(outer.px, outer.py, 4) == 72 && api->area(hole.px, hole.py, 4) == -18
@@ -384,8 +392,8 @@ static void expect_same_results(const Api *api, const Ring *before, const Ring *
 	all_results(api, after, b);
 	for (int i = from; i < to; i++) {
 		const bool both_nan = isnan(a[i]) && isnan(b[i]);
-		expect(both_nan || same_bits(a[i], b[i]), "%s, n = %zu: result %d is %a, was %a", what,
-			before->n, i, b[i], a[i]);
+		expect(both_nan || same_bits(a[i], b[i]), "%s, n = %zu: result %d is %a, was %a",
+			what, before->n, i, b[i], a[i]);
 	}
 }
 
@@ -439,7 +447,8 @@ static void test_repeated(const Api *api, const char *target)
 		}
 		ring_pack(api, &ring);
 		Ring more = with_copies(api, &ring, copies, i % 2);
-		expect_same_results(api, &ring, &more, FROM_VERTICES, FROM_MONOMIALS, "repeated vertices");
+		expect_same_results(
+			api, &ring, &more, FROM_VERTICES, FROM_MONOMIALS, "repeated vertices");
 		ring_free(&ring);
 		ring_free(&more);
 	}
@@ -480,7 +489,8 @@ static void test_closed(const Api *api, const char *target)
 		if (ring->n == 0 || ring->n == 2)
 			continue;
 		Ring closed = with_copies(api, ring, once, true);
-		expect_same_results(api, ring, &closed, FROM_VERTICES, RESULTS, cases_of(api)[i].kind);
+		expect_same_results(
+			api, ring, &closed, FROM_VERTICES, RESULTS, cases_of(api)[i].kind);
 		expect_same_central(api, ring, &closed);
 		ring_free(&closed);
 	}
@@ -490,7 +500,8 @@ static void test_closed(const Api *api, const char *target)
 static void expect_no_centroid(const Api *api, const Ring *ring, const char *what)
 {
 	double out[MOMENTS], c[2] = { 0, 0 };
-	expect(api->area(ring->px, ring->py, ring->n) == 0, "%s, n = %zu: area is not 0", what, ring->n);
+	expect(api->area(ring->px, ring->py, ring->n) == 0, "%s, n = %zu: area is not 0", what,
+		ring->n);
 	expect(api->centroid(ring->px, ring->py, ring->n, c) == EW_ZERO_AREA,
 		"%s, n = %zu: centroid exists", what, ring->n);
 	expect(isnan(get(api, c, 0)) && isnan(get(api, c, 1)), "%s: centroid is no NaN", what);
@@ -508,8 +519,8 @@ static void expect_nothing(const Api *api, const Ring *ring, const char *what)
 	all_results(api, ring, out);
 	for (int i = 0; i < RESULTS; i++) {
 		const bool is_centroid = i == FROM_EDGES || i == FROM_EDGES + 1;
-		expect(is_centroid ? isnan(out[i]) : out[i] == 0, "%s, n = %zu: result %d is %a", what,
-			ring->n, i, out[i]);
+		expect(is_centroid ? isnan(out[i]) : out[i] == 0, "%s, n = %zu: result %d is %a",
+			what, ring->n, i, out[i]);
 	}
 	expect_no_centroid(api, ring, what);
 }
@@ -559,11 +570,12 @@ static void test_extremes(const Api *api, const char *target)
 	check_begin("largest and smallest, %s, %s", api->name, target);
 	for (int i = 0; i < 2 * 9 * LARGEST; i++) {
 		const int d = i / 2 % 9;
-		const double scale = i % 2 ? large_scale(d, api->bits, LARGEST) : small_scale(d, api->bits);
+		const double scale =
+			i % 2 ? large_scale(d, api->bits, LARGEST) : small_scale(d, api->bits);
 		Ring ring = ring_new((size_t)i / 18 + 1);
 		for (size_t j = 0; j < ring.n; j++) {
-			ring.x[j] = random_real(0.5, 1) * (random_int(0, 1) ? scale : -scale);
-			ring.y[j] = random_real(0.5, 1) * (random_int(0, 1) ? scale : -scale);
+			ring.x[j] = random_sized(scale);
+			ring.y[j] = random_sized(scale);
 		}
 		ring_pack(api, &ring);
 		ref_ring(moments, d, ring.x, ring.y, ring.n);
@@ -571,8 +583,9 @@ static void test_extremes(const Api *api, const char *target)
 		api->moments(d, ring.px, ring.py, ring.n, out);
 		moments_within(api, d, &ring, moments, area, out, i % 2 ? "large" : "small");
 		for (int n = 0; n <= d; n++)
-			moment_within(api, find_row("monomial", d - n, n), &ring, moments, area, d - n, n,
-				api->moment(d - n, n, ring.px, ring.py, ring.n), i % 2 ? "large" : "small");
+			moment_within(api, find_row("monomial", d - n, n), &ring, moments, area,
+				d - n, n, api->moment(d - n, n, ring.px, ring.py, ring.n),
+				i % 2 ? "large" : "small");
 		ring_free(&ring);
 	}
 	check_end();
@@ -585,16 +598,21 @@ static void test_list(void)
 {
 	check_begin("list of ring kernels");
 	for (int d = 0; d <= EW_MAX_DEGREE; d++) {
-		expect(find_row("moments", d, 0)->outputs == ref_count(d), "outputs of degree %d", d);
+		expect(find_row("moments", d, 0)->outputs == ref_count(d), "outputs of degree %d",
+			d);
 		for (int n = 0; n <= d; n++)
-			expect(find_row("monomial", d - n, n)->outputs == 1, "outputs of x%dy%d", d - n, n);
+			expect(find_row("monomial", d - n, n)->outputs == 1, "outputs of x%dy%d",
+				d - n, n);
 	}
 	for (int i = 0; i < ROWS; i++) {
 		const Row *row = &ring_rows[i];
-		const bool known = strcmp(row->family, "moments") == 0 || strcmp(row->family, "monomial") == 0;
+		const bool known =
+			strcmp(row->family, "moments") == 0 || strcmp(row->family, "monomial") == 0;
 		expect(known, "no test knows the family %s of %s", row->family, row->name);
-		expect(!known || find_row(row->family, row->m, row->n) == row, "%s is listed twice", row->name);
-		expect(row->accumulators >= row->outputs && row->k > 0 && row->r > 0, "row of %s", row->name);
+		expect(!known || find_row(row->family, row->m, row->n) == row, "%s is listed twice",
+			row->name);
+		expect(row->accumulators >= row->outputs && row->k > 0 && row->r > 0, "row of %s",
+			row->name);
 	}
 	check_end();
 }

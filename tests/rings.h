@@ -198,6 +198,14 @@ static inline void ring_star(Ring *ring, double cx, double cy, double size)
 	}
 }
 
+/* The same around a random centre, its coordinates below away. */
+static inline void ring_star_near(Ring *ring, double away, double size)
+{
+	const double cx = random_real(-away, away);
+	const double cy = random_real(-away, away);
+	ring_star(ring, cx, cy, size);
+}
+
 /* Rounds every coordinate to a multiple of step. */
 static inline void ring_snap(Ring *ring, double step)
 {
@@ -215,7 +223,8 @@ static inline void for_each_target(void (*test)(const Api *api, const char *targ
 		if (!(targets & bit))
 			continue;
 		if (ew_use_target(bit) != EW_OK) {
-			printf("not ok target %s: refused, though ew_targets has it\n", ew_target_name(bit));
+			printf("not ok target %s: refused, though ew_targets has it\n",
+				ew_target_name(bit));
 			exit(1);
 		}
 		for (int i = 0; i < APIS; i++)
