@@ -25,12 +25,14 @@ typedef struct { const char *from; size_t size; const char *to; } Rule;
 static void rename_token(Text *out, const char *token, size_t size, const Rule *rules, int count)
 {
 	for (int i = 0; i < count; ++i) {
-		int whole = rules[i].from[rules[i].size - 1] == '_' || size == rules[i].size
-			|| token[rules[i].size] == '_';
-		if (size >= rules[i].size && memcmp(token, rules[i].from, rules[i].size) == 0 && whole) {
-			text_add(out, "%s", rules[i].to);
-			token += rules[i].size;
-			size -= rules[i].size;
+		const Rule *rule = &rules[i];
+		if (size < rule->size || memcmp(token, rule->from, rule->size) != 0)
+			continue;
+		int whole = rule->from[rule->size - 1] == '_' || size == rule->size || token[rule->size] == '_';
+		if (whole) {
+			text_add(out, "%s", rule->to);
+			token += rule->size;
+			size -= rule->size;
 			break;
 		}
 	}

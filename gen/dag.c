@@ -213,7 +213,6 @@ Poly dag_expand_node(const Node *node, const Poly *done)
 	case OP_MUL:   return poly_mul(a, b);
 	case OP_FMA:   return poly_add(poly_mul(a, b), c);
 	case OP_FMS:   return poly_sub(poly_mul(a, b), c);
-	case OP_FNMA:  return poly_sub(c, poly_mul(a, b));
 	}
 	bug("operation %d has no meaning as a polynomial", node->op);
 }

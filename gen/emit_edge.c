@@ -83,7 +83,7 @@ void emit_edge(Text *text, const Edge *edge, const Precision *precision)
 	const Program *program = &edge->program;
 	const char *real = precision->real;
 	Mark mark = arena_mark();
-	text_add(text, "\n/* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of %s:\n *\n", edge->what->formula);
+	text_add(text, "/* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of %s:\n *\n", edge->what->formula);
 	add_formula(text, edge, " * ");
 	text_add(text, " *\n * Sum it over a closed boundary; counterclockwise is positive.");
 	if (edge->what->m >= 0)
@@ -110,8 +110,10 @@ void emit_edges(Files *files, const Request *request, const Kernels *kernels)
 		emit_banner(text, name, format("contribution of one line edge to an integral, %s", precision->real),
 			request);
 		text_add(text, "\n#include \"edgewise.h\"\n#include \"edgewise_kernels.h\"\n");
-		for (int k = 0; k < kernels->edges; ++k)
+		for (int k = 0; k < kernels->edges; ++k) {
+			text_add(text, "\n");
 			emit_edge(text, &kernels->edge[k], precision);
+		}
 	}
 }
 

@@ -36,8 +36,6 @@ static Ref fuse_node(const Fusion *f, const Node *node)
 		return fused(f, OP_FMA, a, b);
 	if (node->op == OP_SUB && only_here(f, a) && !is_product(f, b))
 		return fused(f, OP_FMS, a, b);
-	if (node->op == OP_SUB && only_here(f, b) && !is_product(f, a))
-		return fused(f, OP_FNMA, b, a);
 	return dag_node(f->to, node->op, f->map[a], f->map[b], NONE);
 }
 

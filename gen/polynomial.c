@@ -193,23 +193,36 @@ static Poly substitute_term(Term term, const int *vars, const Poly *by, int coun
 	return poly_mul(product, poly_mono(rat(1, 1), term.mono));
 }
 
-/* Intermediate polynomials are freed term by term: they are many and large. */
+/* Merges the terms of a raw array. */
+static void collect_raw(Text *terms)
+{
+	if (terms->size)
+		terms->size = sizeof(Term) * (size_t)poly_collect((Term *)(void *)terms->data,
+			(int)(terms->size / sizeof(Term))).count;
+}
+
+/* Intermediate polynomials are freed term by term, and like terms merged now and then: they are many and large. */
 Poly poly_substitute(Poly a, const int *vars, const Poly *by, int count)
 {
 	Text terms = { 0 };
+	size_t limit = 1 << 20;
 	for (int i = 0; i < a.count; ++i) {
 		Mark mark = arena_mark();
 		Poly product = substitute_term(a.term[i], vars, by, count);
 		if (product.count)
 			text_append(&terms, (const char *)product.term, (size_t)product.count * sizeof(Term));
 		arena_release(mark);
+		if (terms.size > limit) {
+			collect_raw(&terms);
+			limit = 2 * terms.size > limit ? 2 * terms.size : limit;
+		}
 	}
-	Term *all = allocate(terms.size);
+	collect_raw(&terms);
+	Poly result = { (int)(terms.size / sizeof(Term)), allocate(terms.size) };
 	if (terms.size)
-		memcpy(all, terms.data, terms.size);
-	int total = (int)(terms.size / sizeof(Term));
+		memcpy(result.term, terms.data, terms.size);
 	text_free(&terms);
-	return poly_collect(all, total);
+	return result;
 }
 
 int poly_equal(Poly a, Poly b)

@@ -12,7 +12,7 @@
 #include <string.h>
 
 enum { MAX_NESTING = 100, MAX_NAME = 40, MAX_DIGITS = 30 };
-enum { BEFORE = 60, BEHIND = 30 };                   /* characters shown around an error */
+enum { BEFORE = 60, BEHIND = 60 };                   /* characters shown around an error */
 
 typedef struct { const char *what, *text; size_t at; int nesting; } Reader;
 
@@ -124,8 +124,8 @@ static Poly read_base(Reader *reader)
 		return poly_var(c == 'x' ? VAR_X : VAR_Y);
 	}
 	if (letters)
-		syntax_error(reader, start, format("unknown name '%.*s'; there are x and y, and products need a *",
-			letters > MAX_NAME ? MAX_NAME : (int)letters, reader->text + start));
+		syntax_error(reader, start, format("expected a number, x, y or '(', not the name '%.*s'; products "
+			"need a *", letters > MAX_NAME ? MAX_NAME : (int)letters, reader->text + start));
 	if (c != '(')
 		syntax_error(reader, start, "expected a number, x, y or '('");
 	if (++reader->nesting > MAX_NESTING)
@@ -229,7 +229,7 @@ void spec_prefix(const char *text)
 {
 	check_identifier("--prefix", text);
 	if (is_listed(HEADERS, text))
-		fatal(EXIT_USAGE, "--prefix: %s.h is a standard header; choose another name", text);
+		fatal(EXIT_USAGE, "--prefix: '%s' would hide the standard header %s.h; choose another name", text, text);
 }
 
 /* Reads digits into *value; -1 and more than MAX_DEGREE both fail. */

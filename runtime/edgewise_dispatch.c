@@ -3,7 +3,7 @@
  * On x86 the CPU is asked by CPUID, and by XGETBV whether the operating system saves the wide registers: FMA3 works on
  * them. The answer is cached in one word, written with the same value by whichever thread comes first.
  *
- * Edgewise runtime, SPDX-License-Identifier: 0BSD */
+ * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 #include "edgewise_runtime.h"
 
 static const struct { unsigned bit; const char *name; } ew_cpu_names[] = {

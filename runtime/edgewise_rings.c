@@ -1,6 +1,6 @@
 /* edgewise_rings.c - integrals over one ring: the driver in edgewise_rings_template.h, once per precision.
  *
- * Edgewise runtime, SPDX-License-Identifier: 0BSD */
+ * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 #include "edgewise_runtime.h"
 
 #include <math.h>

@@ -10,7 +10,7 @@
  * change the result. Float lanes are flushed to double after every EW_BLOCK items. At the end lanes are added by halving:
  * lane l and lane l + EW_WIDTH/2, then l and l + EW_WIDTH/4, and so on.
  *
- * Edgewise runtime, SPDX-License-Identifier: 0BSD */
+ * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 
 typedef struct {
 	const EW_REAL *x, *y;

@@ -1,6 +1,6 @@
 /* edgewise_runtime.h - what the files of the runtime share; not for users.
  *
- * Edgewise runtime, SPDX-License-Identifier: 0BSD */
+ * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 #ifndef EDGEWISE_RUNTIME_H
 #define EDGEWISE_RUNTIME_H
 

@@ -1,4 +1,3 @@
-
 /* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of x^4 y^2:
  *
  *     1/840 (x0 y1 - x1 y0) times the sum of row times column times
