@@ -194,6 +194,28 @@ void dag_dump(Text *text, const Dag *dag);
 
 Dag *fuse(const Dag *dag);
 
+/* ---- evaluate.c: from a polynomial to operations -------------------------------------------------------- */
+
+typedef struct { Ref ref[VARS]; } Leaves;            /* what stands for each variable of a polynomial */
+extern const int X_VARS[2], Y_VARS[2];               /* the variables of each axis, start and end */
+
+Leaves ends(Dag *dag);                               /* every variable stands for itself */
+Ref  cross(Dag *dag);                                /* s = x0 y1 - x1 y0 */
+Ref  sum_of(Dag *dag, int start, int end, const char *name);
+Ref  difference_of(Dag *dag, int start, int end, const char *name);             /* end - start */
+Ref  axis_part(Dag *dag, const Leaves *leaves, Mono mono, const int *vars, char axis);   /* axis: letter of names, or 0 */
+Poly group_by(Poly a, const int *vars);              /* terms that share their part in vars next to each other */
+Poly next_group(Poly sorted, int *from, const int *vars);
+Ref  grouped(Dag *dag, const Leaves *leaves, Poly density, const int *outer);
+Ref  horner(Dag *dag, Poly a, int var);
+
+/* ---- moments.c: schemes for all moments to a degree ------------------------------------------------------- */
+
+Dag *moments_shared(void);                           /* degree 2 */
+Dag *moments_even_power(int degree);                 /* 0 .. 4 */
+Dag *moments_recurrence(int degree);                 /* 1 and more */
+Dag *moments_matrix(const Integral *want, int degree);
+
 /* ---- scheme.c: ways to evaluate, and the choice by cost ------------------------------------------------ */
 
 typedef struct { int fma, add, mul; } Count;         /* operations: FMA pipe (mul included), adder; mul alone */

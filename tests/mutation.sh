@@ -18,27 +18,27 @@ not_ok() { echo "not ok $1: $2"; }
 
 # name|file of gen/|sed script
 cat >"$work/gen.list" <<'END'
-recurrence, index of y0 h|scheme.c|/VAR_Y0\], r->h/s/h\[m\]\[n - 1\]/h[m][n]/
-recurrence, neighbour of h|scheme.c|/VAR_X0\], r->h/s/h\[m - 1\]\[n\]/h[m][n - 1]/
-recurrence, binomial of the source|scheme.c|s/rat(int_binomial(m + n, n), 1), r->w/rat(int_binomial(m + n, m + 1), 1), r->w/
-recurrence, end of the weight|scheme.c|s/m ? VAR_X1 : VAR_Y1/m ? VAR_X0 : VAR_Y1/
-recurrence, factor of a moment|scheme.c|s/(m + n + 2) \* (m + n + 1), int_binomial/(m + n + 2) * (m + n + 2), int_binomial/
-recurrence, top source|scheme.c|s/rat(1, (m + n + 2) \* (m + n + 1))/rat(1, (m + n + 2) * (m + n))/
-even-power, sign of degree 2|scheme.c|s/rat(-1, 24)/rat(1, 24)/
-even-power, factor of degree 3|scheme.c|s/rat(1, 40)/rat(1, 48)/
-even-power, share of degree 3|scheme.c|s/i == 1 ? rat(2, 3) : rat(1, 3);$/i == 1 ? rat(1, 3) : rat(1, 3);/
-even-power, index of degree 4|scheme.c|s/even->ee\[n - i\]/even->ee[i]/
+recurrence, index of y0 h|moments.c|/VAR_Y0\], r->h/s/h\[m\]\[n - 1\]/h[m][n]/
+recurrence, neighbour of h|moments.c|/VAR_X0\], r->h/s/h\[m - 1\]\[n\]/h[m][n - 1]/
+recurrence, binomial of the source|moments.c|s/rat(int_binomial(m + n, n), 1), r->w/rat(int_binomial(m + n, m + 1), 1), r->w/
+recurrence, end of the weight|moments.c|s/m ? VAR_X1 : VAR_Y1/m ? VAR_X0 : VAR_Y1/
+recurrence, factor of a moment|moments.c|s/(m + n + 2) \* (m + n + 1), int_binomial/(m + n + 2) * (m + n + 2), int_binomial/
+recurrence, top source|moments.c|s/rat(1, (m + n + 2) \* (m + n + 1))/rat(1, (m + n + 2) * (m + n))/
+even-power, sign of degree 2|moments.c|s/rat(-1, 24)/rat(1, 24)/
+even-power, factor of degree 3|moments.c|s/rat(1, 40)/rat(1, 48)/
+even-power, share of degree 3|moments.c|s/i == 1 ? rat(2, 3) : rat(1, 3);$/i == 1 ? rat(1, 3) : rat(1, 3);/
+even-power, index of degree 4|moments.c|s/even->ee\[n - i\]/even->ee[i]/
 even-power, half of a single integrand|scheme.c|s/poly_sub(sum, half), rat(1, 2)/poly_sub(sum, half), rat(1, 3)/
-shared, sign of xy|scheme.c|s/Ref xy = dag_sub(dag, dag_mul/Ref xy = dag_add(dag, dag_mul/
-shared, product of xx|scheme.c|s/x0a = dag_mul(dag, x0, a)/x0a = dag_mul(dag, x1, a)/
+shared, sign of xy|moments.c|s/Ref xy = dag_sub(dag, dag_mul/Ref xy = dag_add(dag, dag_mul/
+shared, product of xx|moments.c|s/x0a = dag_mul(dag, x0, a)/x0a = dag_mul(dag, x1, a)/
 vertex, index of the height|scheme.c|s/VAR_Y0, VAR_Y2, "height"/VAR_Y1, VAR_Y2, "height"/
 vertex, factor|scheme.c|/"height"/,/^}/s/rat(1, 2)/rat(1, 1)/
 matrix, end of a power of x|scheme.c|s/axis_part(dag, &end, image, X_VARS/axis_part(dag, \&end, x, X_VARS/
 matrix, coefficient of a row|scheme.c|s/return dag_scale(dag, term.coef, axis_part/return dag_scale(dag, rat_add(term.coef, rat(1, 1)), axis_part/
-matrix, sign of the cross product|scheme.c|s/dag_sub(dag, left, right), "s"/dag_add(dag, left, right), "s"/
-horner, variable|scheme.c|s/sum = dag_mul(dag, sum, dag_var(dag, var))/sum = dag_mul(dag, sum, dag_var(dag, VAR_X0))/
+matrix, sign of the cross product|evaluate.c|s/dag_sub(dag, left, right), "s"/dag_add(dag, left, right), "s"/
+horner, variable|evaluate.c|s/sum = dag_mul(dag, sum, dag_var(dag, var))/sum = dag_mul(dag, sum, dag_var(dag, VAR_X0))/
 finish, content of the last form|scheme.c|s/dag_out(dag, dag_scale(dag, content, sum));/dag_out(dag, dag_scale(dag, rat_mul(content, content), sum));/
-fuse, FNMA for FMS|fuse.c|s/fused(f, OP_FMS, a, b)/fused(f, OP_FNMA, a, b)/
+fuse, FMA for FMS|fuse.c|s/fused(f, OP_FMS, a, b)/fused(f, OP_FMA, a, b)/
 fuse, operand of a product|fuse.c|s/f->map\[mul->arg\[1\]\]/f->map[mul->arg[0]]/
 schedule, order|schedule.c|s/^\tprogram->order\[program->count++\] = ref;/\tprogram->order[program->count++] = node->arg[0];/
 schedule, last use|schedule.c|s/program->last\[node->arg\[k\]\] = at;/program->last[node->arg[k]] = at - 1;/
