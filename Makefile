@@ -4,7 +4,8 @@
 #   make test        all tests            make bench       operation counts and ns per edge
 #   make generated   emit generated/ anew make layers      no object refers upwards in the pipeline
 #   make accept      accept new golden outputs             make clean
-# Variables: CC CFLAGS LDFLAGS B (build directory) SAN=1 (address and undefined-behaviour sanitizers)
+# Variables: CC CFLAGS LDFLAGS B (build directory) SAN=1
+# (address and undefined-behaviour sanitizers)
 
 CC     ?= cc
 CFLAGS ?= -O2 -g
@@ -17,9 +18,10 @@ endif
 COMPILE = $(CC) $(STRICT) -ffp-contract=off $(SANITIZE) $(CFLAGS)
 
 # In the order of the pipeline: nothing calls a file that stands later.
-GEN     := util rational polynomial spec green dag fuse evaluate moments scheme schedule proof kernel \
-           emit emit_edge emit_ring emit_list emit_header bundle deliver main
-RUNTIME := $(addprefix runtime/,edgewise_runtime.h edgewise_dispatch.c edgewise_rings_template.h edgewise_rings.c)
+GEN     := util rational polynomial spec green dag fuse evaluate moments scheme schedule proof \
+           kernel emit emit_edge emit_ring emit_list emit_header bundle deliver main
+RUNTIME := $(addprefix runtime/,edgewise_runtime.h edgewise_dispatch.c \
+             edgewise_rings_template.h edgewise_rings.c)
 GEN_OBJ := $(GEN:%=$(B)/obj/%.o)
 LIB     := $(B)/libedgewise.a
 SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
@@ -78,7 +80,8 @@ $(B)/shapes: examples/shapes.c library
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
 
 $(B)/bench: bench/bench.c library
-	$(COMPILE) -std=c11 -fno-tree-vectorize -fno-tree-slp-vectorize -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
+	$(COMPILE) -std=c11 -fno-tree-vectorize -fno-tree-slp-vectorize -I$(B)/emitted -o $@ $< \
+		$(LIB) $(LDFLAGS) -lm
 
 bench: $(B)/bench
 	@$(B)/bench
@@ -95,11 +98,13 @@ $(B)/polynomials.stamp: $(B)/gen
 		--polynomial 'deep=x^5*y^3/7 - 2.5*x^2*y^4 - 2*x + 1/3' --out $(B)/polynomials
 	@touch $@
 
-$(B)/tests/units: tests/units.c tests/check.h $(filter-out %/main.o %/deliver.o %/bundle.o,$(GEN_OBJ)) | $(B)/tests
+$(B)/tests/units: tests/units.c tests/check.h \
+		$(filter-out %/main.o %/deliver.o %/bundle.o,$(GEN_OBJ)) | $(B)/tests
 	$(TEST_BUILD) -o $@ $(filter %.c %.o,$^) $(LDFLAGS) $(MATH)
 
 $(B)/tests/polynomials: tests/polynomials.c tests/reference.c $(B)/polynomials.stamp | $(B)/tests
-	$(TEST_BUILD) -I$(B)/polynomials -o $@ $(filter %.c,$^) $(B)/polynomials/*.c $(LDFLAGS) $(MATH)
+	$(TEST_BUILD) -I$(B)/polynomials -o $@ $(filter %.c,$^) $(B)/polynomials/*.c $(LDFLAGS) \
+		$(MATH)
 
 $(B)/tests/%: tests/%.c tests/reference.c $(wildcard tests/*.h) library | $(B)/tests
 	$(TEST_BUILD) -I$(B)/emitted -o $@ $(filter %.c,$^) $(LIB) $(LDFLAGS) $(MATH)
@@ -107,11 +112,13 @@ $(B)/tests/%: tests/%.c tests/reference.c $(wildcard tests/*.h) library | $(B)/t
 test: $(PROGRAMS) $(B)/shapes $(B)/bench
 	@sh tests/run.sh $(B)/tests/logs \
 		'layers: sh tests/layers.sh $(B) "$(GEN)"' \
-		'units: $(B)/tests/units' 'readme: sh tests/readme.sh $(B)' 'golden: sh tests/golden.sh $(B)' 'counts: sh tests/counts.sh $(B)' \
+		'units: $(B)/tests/units' 'readme: sh tests/readme.sh $(B)' \
+		'golden: sh tests/golden.sh $(B)' 'counts: sh tests/counts.sh $(B)' \
 		'lines: $(B)/tests/lines' $(foreach t,$(RING_TESTS),'$(t): $(B)/tests/$(t)') \
 		'polynomials: $(B)/tests/polynomials' \
 		'shapes: $(B)/shapes --exact examples/data/countries.txt | $(B)/tests/shapes' \
-		'command-line: sh tests/cli.sh $(B)/gen' 'same-output: sh tests/same_output.sh $(B)' \
+		'command-line: sh tests/cli.sh $(B)/gen' \
+		'same-output: sh tests/same_output.sh $(B)' \
 		'mutation: sh tests/mutation.sh $(B)' 'matrix: sh tests/matrix.sh $(B)'
 
 layers: $(B)/gen
@@ -125,10 +132,12 @@ PACKAGES := gcc g++ clang tcc make binutils libc6-dev libgmp-dev libmpfr-dev
 deps:
 	@if command -v apt-get >/dev/null; then \
 		run=; [ "$$(id -u)" = 0 ] || run=sudo; \
-		$$run apt-get update -qq && DEBIAN_FRONTEND=noninteractive $$run apt-get install -y -qq \
+		$$run apt-get update -qq && \
+		DEBIAN_FRONTEND=noninteractive $$run apt-get install -y -qq \
 			--no-install-recommends $(PACKAGES) >/dev/null; \
 	else \
-		echo "make deps knows Debian's package names only; install the equivalents of: $(PACKAGES)"; exit 1; \
+		echo "make deps knows Debian's package names only;" \
+			"install the equivalents of: $(PACKAGES)"; exit 1; \
 	fi
 
 clean:

@@ -1,10 +1,11 @@
-/* bench.c - every ring kernel on every target, beside the multiply-add rate of this machine, in one run.
+/* bench.c - every ring kernel on every target, beside the multiply-add
+ * rate of this machine, in one run.
  *
- * A slot is the time of one scalar fused multiply-add at the rate measured here and now, so slots per edge
- * hardly depend on the machine: a kernel with f operations on the FMA pipe cannot take fewer than f slots. All
- * kernels run on the same vertices in the nearest cache. Rounds are interleaved: each round runs everything
- * once. Shown is the median over the rounds, and for slots the median of the ratio to the FMA loop of the same
- * round, because a shared machine is noisy.
+ * A slot is the time of one scalar fused multiply-add at the rate measured here and now,
+ * so slots per edge hardly depend on the machine: a kernel with f operations on the FMA pipe cannot
+ * take fewer than f slots. All kernels run on the same vertices in the nearest cache. Rounds are
+ * interleaved: each round runs everything once. Shown is the median over the rounds, and for slots
+ * the median of the ratio to the FMA loop of the same round, because a shared machine is noisy.
  *
  * Usage: bench [ROUNDS] */
 #define _POSIX_C_SOURCE 200809L
@@ -34,10 +35,13 @@ static float xf[ITEMS + 2], yf[ITEMS + 2], sumf[EW_MAX_ACCUMULATORS * LANES];
 
 static void list_kernels(void)
 {
-#define NAME(id, family, m, n, accumulators, outputs, k, r) doubles[id].name = floats[id].name = #id;
+#define NAME(id, family, m, n, accumulators, outputs, k, r) \
+	doubles[id].name = floats[id].name = #id;
 	EW_RINGS(NAME)
 #define PUT(table, target, member, id, symbol, fma, add) \
-	table[id].kernel[target].f = fma; table[id].kernel[target].a = add; table[id].kernel[target].member = symbol;
+	table[id].kernel[target].f = fma; \
+	table[id].kernel[target].a = add; \
+	table[id].kernel[target].member = symbol;
 #define PORTABLE(id, symbol, f, a) PUT(doubles, 0, run, id, symbol, f, a)
 #define PORTABLEF(id, symbol, f, a) PUT(floats, 0, runf, id, symbol, f, a)
 	EW_RINGS_PORTABLE_DOUBLE(PORTABLE)
@@ -127,13 +131,15 @@ static double median(double *value, int count)
 
 static void print_table(const char *title, Row *rows, int rounds)
 {
-	printf("\n%-14s   fma: operations  ns/edge   slots  %% of FMA rate   portable: operations  ns/edge\n", title);
+	printf("\n%-14s   fma: operations  ns/edge   slots  %% of FMA rate   "
+		"portable: operations  ns/edge\n", title);
 	for (int id = 0; id < EW_RINGS_COUNT; ++id) {
 		Kernel *portable = &rows[id].kernel[0], *fused = &rows[id].kernel[1];
 		const char *name = rows[id].name + strlen("EW_RING_");
 		double slots = median(fused->slots, rounds);
-		printf("%-14s      %4d + %3d    %8.3f %7.1f  %8.0f %%         %4d + %3d         %8.3f\n", name, fused->f,
-			fused->a, median(fused->ns, rounds), slots, 100 * fused->f / slots, portable->f, portable->a,
+		printf("%-14s      %4d + %3d    %8.3f %7.1f  %8.0f %%", name, fused->f, fused->a,
+			median(fused->ns, rounds), slots, 100 * fused->f / slots);
+		printf("         %4d + %3d         %8.3f\n", portable->f, portable->a,
 			median(portable->ns, rounds));
 	}
 }
@@ -166,7 +172,8 @@ int main(int argc, char **argv)
 		run_round(doubles, round);
 		run_round(floats, round);
 	}
-	printf("edgewise %s; %d vertices in cache, medians of %d interleaved rounds\n", ew_version(), ITEMS, rounds);
+	printf("edgewise %s; %d vertices in cache, medians of %d interleaved rounds\n",
+		ew_version(), ITEMS, rounds);
 	printf("scalar multiply-add: %.2f per ns\n", 1 / median(slot, rounds));
 	print_table("double", doubles, rounds);
 	print_table("float", floats, rounds);

@@ -1,8 +1,9 @@
 /* bundle.c - from emitted files to what the user gets.
  *
- * Printers and runtime speak of ew_, EW_ and edgewise only; another prefix is one renaming of whole tokens at the end,
- * over every text and file name alike. The single header is the public header followed, under EW_IMPLEMENTATION, by all
- * other files, with each include of our own replaced by its text (headers with a guard once, templates every time). */
+ * Printers and runtime speak of ew_, EW_ and edgewise only; another prefix is one renaming of whole
+ * tokens at the end, over every text and file name alike. The single header is the public header
+ * followed, under EW_IMPLEMENTATION, by all other files, with each include of our own replaced by
+ * its text (headers with a guard once, templates every time). */
 #include "gen.h"
 
 #include <string.h>
@@ -17,7 +18,8 @@ void bundle_runtime(Files *files)
 
 static int is_word(int c)
 {
-	return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+	return c == '_' || (c >= '0' && c <= '9')
+		|| (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
 typedef struct { const char *from; size_t size; const char *to; } Rule;
@@ -28,7 +30,8 @@ static void rename_token(Text *out, const char *token, size_t size, const Rule *
 		const Rule *rule = &rules[i];
 		if (size < rule->size || memcmp(token, rule->from, rule->size) != 0)
 			continue;
-		int whole = rule->from[rule->size - 1] == '_' || size == rule->size || token[rule->size] == '_';
+		int whole = rule->from[rule->size - 1] == '_' || size == rule->size
+			|| token[rule->size] == '_';
 		if (whole) {
 			text_add(out, "%s", rule->to);
 			token += rule->size;
@@ -94,8 +97,9 @@ Text bundle_manifest(const Files *files, const Request *request, const Kernels *
 	text_add(&text, " \"files\": [");
 	for (int i = 0; i < files->count; ++i) {
 		const File *file = &files->file[i];
-		text_add(&text, "%s\n  {\"file\": \"%s\", \"bytes\": %zu, \"fnv1a64\": \"%016llx\"}", i ? "," : "", file->name,
-			file->text.size, (unsigned long long)text_hash(file->text.data, file->text.size));
+		unsigned long long hash = text_hash(file->text.data, file->text.size);
+		text_add(&text, "%s\n  {\"file\": \"%s\", \"bytes\": %zu, \"fnv1a64\": "
+			"\"%016llx\"}", i ? "," : "", file->name, file->text.size, hash);
 	}
 	text_add(&text, "\n ]}\n");
 	return text;
@@ -106,7 +110,8 @@ Text bundle_manifest(const Files *files, const Request *request, const Kernels *
 static const File *find_file(const Files *files, const char *name, size_t size)
 {
 	for (int i = 0; i < files->count; ++i)
-		if (strlen(files->file[i].name) == size && memcmp(files->file[i].name, name, size) == 0)
+		if (strlen(files->file[i].name) == size
+		    && memcmp(files->file[i].name, name, size) == 0)
 			return &files->file[i];
 	return NULL;
 }
@@ -116,7 +121,9 @@ static const File *included(const Files *files, const char *line)
 {
 	static const char start[] = "#include \"";
 	const char *name = line + sizeof start - 1;
-	return strncmp(line, start, sizeof start - 1) == 0 ? find_file(files, name, strcspn(name, "\"\n")) : NULL;
+	if (strncmp(line, start, sizeof start - 1) != 0)
+		return NULL;
+	return find_file(files, name, strcspn(name, "\"\n"));
 }
 
 static void expand(Text *out, const Files *files, const File *file, unsigned char *done)
@@ -141,8 +148,10 @@ Text bundle_single_header(const Files *files, const Request *request)
 	const char *upper = request->prefix ? bundle_name("EW_", request->prefix) : "EW_";
 	unsigned char *done = allocate((size_t)files->count);
 	char *header = bundle_name("edgewise.h", request->prefix);
-	text_add(&text, "/* %s - single header: include it anywhere, and in one file define %sIMPLEMENTATION before.\n"
-		" * Link with -lm. The implementation switches floating-point contraction off for the rest of its file. */\n",
+	text_add(&text, "/* %s - single header: include it anywhere, and in one file define "
+		"%sIMPLEMENTATION before.\n"
+		" * Link with -lm. The implementation switches floating-point contraction off for "
+		"the rest of its file. */\n",
 		header, upper);
 	expand(&text, files, find_file(files, header, strlen(header)), done);
 	text_add(&text, "\n#ifdef %sIMPLEMENTATION\n", upper);
@@ -161,7 +170,8 @@ Text bundle_depfile(const Files *outputs)
 	for (int i = 0; i < outputs->count; ++i) {
 		text_add(&text, "%s", i ? " \\\n " : "");
 		for (const char *p = outputs->file[i].name; *p; ++p)
-			text_add(&text, strchr(" #:%\\", *p) ? "\\%c" : *p == '$' ? "$%c" : "%c", *p);
+			text_add(&text, strchr(" #:%\\", *p) ? "\\%c" : *p == '$' ? "$%c" : "%c",
+				*p);
 	}
 	text_add(&text, ":\n");
 	return text;

@@ -1,12 +1,14 @@
 /* dag.c - operations as a hash-consed directed acyclic graph.
  *
- * A node is an operation on nodes with smaller indices, so the array is always in a valid order of evaluation and
- * passes are plain loops. Equal operations are the same node: common subexpressions need no pass. The operands of
- * commutative operations are kept in index order (IEEE addition and multiplication commute bit for bit). The smart
- * constructors remove multiplications by 1 and additions of 0, nothing else: floating point does not reassociate.
+ * A node is an operation on nodes with smaller indices, so the array is always in a valid
+ * order of evaluation and passes are plain loops. Equal operations are the same node:
+ * common subexpressions need no pass. The operands of commutative operations are kept in index
+ * order (IEEE addition and multiplication commute bit for bit). The smart constructors remove
+ * multiplications by 1 and additions of 0, nothing else: floating point does not reassociate.
  *
- * dag_reverses() proves a statement about bits, not about values: swapping the two ends of the edge maps every node
- * to a node that computes the same bits, or the negative ones, and every output to its negative. */
+ * dag_reverses() proves a statement about bits, not about values: swapping the two ends
+ * of the edge maps every node to a node that computes the same bits, or the negative ones,
+ * and every output to its negative. */
 #include "gen.h"
 
 #include <string.h>
@@ -69,8 +71,9 @@ static uint64_t node_hash(const Node *node)
 
 static int node_equal(const Node *a, const Node *b)
 {
-	return a->op == b->op && a->arg[0] == b->arg[0] && a->arg[1] == b->arg[1] && a->arg[2] == b->arg[2]
-		&& a->value.num == b->value.num && a->value.den == b->value.den && a->input == b->input;
+	return a->op == b->op && a->arg[0] == b->arg[0] && a->arg[1] == b->arg[1]
+		&& a->arg[2] == b->arg[2] && a->value.num == b->value.num
+		&& a->value.den == b->value.den && a->input == b->input;
 }
 
 static Ref *find(const Dag *dag, const Node *node)
@@ -116,12 +119,16 @@ Ref dag_node(Dag *dag, int op, Ref a, Ref b, Ref c)
 		a = b;
 		b = swap;
 	}
-	return intern(dag, (Node){ .op = (unsigned char)op, .arg = { a, b, c }, .value = { 0, 1 } });
+	const Node node = { .op = (unsigned char)op, .arg = { a, b, c }, .value = { 0, 1 } };
+	return intern(dag, node);
 }
 
 Ref dag_input(Dag *dag, Mono input)
 {
-	return intern(dag, (Node){ .op = OP_INPUT, .arg = { NONE, NONE, NONE }, .value = { 0, 1 }, .input = input });
+	const Node node = {
+		.op = OP_INPUT, .arg = { NONE, NONE, NONE }, .value = { 0, 1 }, .input = input
+	};
+	return intern(dag, node);
 }
 
 Ref dag_var(Dag *dag, int var)
@@ -227,10 +234,13 @@ Poly *dag_expand(const Dag *dag)
 	return poly;
 }
 
-/* The node that computes the mirror image of `node`, up to the sign it returns; NONE if there is none. */
+/* The node that computes the mirror image of `node`, up to the sign it returns;
+ * NONE if there is none. */
 static Ref mirror(Dag *dag, const Node *node, const Ref *image, const int *sign, int *result_sign)
 {
-	static const int swapped[VARS] = { [VAR_X0] = VAR_X1, [VAR_X1] = VAR_X0, [VAR_Y0] = VAR_Y1, [VAR_Y1] = VAR_Y0 };
+	static const int swapped[VARS] = {
+		[VAR_X0] = VAR_X1, [VAR_X1] = VAR_X0, [VAR_Y0] = VAR_Y1, [VAR_Y1] = VAR_Y0
+	};
 	*result_sign = 1;
 	if (node->op == OP_CONST)
 		return dag_const(dag, node->value);

@@ -1,6 +1,8 @@
-/* embed.c - writes the files of the runtime as C strings, so that gen can emit a self-contained folder.
+/* embed.c - writes the files of the runtime as C strings, so that gen can emit
+ * a self-contained folder.
  *
- * Built and run before gen: embed FILE... >embedded.c. Lines become string literals; nothing is interpreted. */
+ * Built and run before gen: embed FILE... >embedded.c. Lines become string literals;
+ * nothing is interpreted. */
 #include <stdio.h>
 #include <string.h>
 
@@ -44,7 +46,8 @@ int main(int argc, char **argv)
 	puts("const Embedded embedded_runtime[] = {");
 	for (int i = 1; i < argc; ++i) {
 		const char *slash = strrchr(argv[i], '/');
-		printf("{ \"%s\", file%d, sizeof file%d - 1 },\n", slash ? slash + 1 : argv[i], i, i);
+		printf("{ \"%s\", file%d, sizeof file%d - 1 },\n",
+			slash ? slash + 1 : argv[i], i, i);
 	}
 	puts("{ NULL, NULL, 0 }\n};");
 	return fflush(stdout) || ferror(stdout);

@@ -1,10 +1,11 @@
-/* emit.c - what all printers share: the tables of targets and precisions, banners, and the one printer that turns a
- * program into C statements.
+/* emit.c - what all printers share: the tables of targets and precisions, banners, and the one
+ * printer that turns a program into C statements.
  *
- * A target is a row: which program it runs, the macro that says whether a compiler can build it, the attribute in front of
- * its kernels. Names of values come from the formula where the scheme gave them, else t0, t1, ...; the spelling
- * of an operation comes from ops.def. With `nested`, unnamed values that are used once are written inside the
- * statement that uses them, with the parentheses that keep the order of evaluation. */
+ * A target is a row: which program it runs, the macro that says whether a compiler can build it,
+ * the attribute in front of its kernels. Names of values come from the formula where
+ * the scheme gave them, else t0, t1, ...; the spelling of an operation comes from ops.def.
+ * With `nested`, unnamed values that are used once are written inside the statement that uses them,
+ * with the parentheses that keep the order of evaluation. */
 #include "gen.h"
 
 #include <string.h>
@@ -48,10 +49,11 @@ void emit_wrapped(Text *text, const char *start, const char *margin, const char 
 	int column = 0, first = 1;
 	for (const char *p = words; ; ) {
 		int size = (int)strcspn(p, " \n"), hard = p > words && p[-1] == '\n';
-		if (first || hard || column + 1 + size > WIDTH - 3) {   /* room for the end of a comment */
+		if (first || hard || column + 1 + size > WIDTH - 3) {   /* room to end a comment */
 			const char *head = first ? start : margin;
 			int blank = size == 0 && *head;
-			text_add(text, "%s%.*s%.*s", first ? "" : "\n", (int)strlen(head) - blank, head, size, p);
+			text_add(text, "%s%.*s%.*s", first ? "" : "\n", (int)strlen(head) - blank,
+				head, size, p);
 			column = (int)strlen(head) + size;
 		} else {
 			text_add(text, " %.*s", size, p);
@@ -65,7 +67,8 @@ void emit_wrapped(Text *text, const char *start, const char *margin, const char 
 	}
 }
 
-/* Where to break a statement that is too wide: before its last sum that fits, else before its last product. */
+/* Where to break a statement that is too wide: before its last sum that fits,
+ * else before its last product. */
 static int break_at(const char *statement, int room)
 {
 	static const char *const operators[] = { "+-", "*" };
@@ -130,11 +133,13 @@ static void name_values(Printer *printer)
 	const Dag *dag = program->dag;
 	int temporaries = 0;
 	for (int i = 0; i < dag->count; ++i) {
-		int accumulator = dag->node[i].op == OP_INPUT ? mono_accumulator_of(dag->node[i].input) : -1;
+		const Node *node = &dag->node[i];
+		int is_input = node->op == OP_INPUT;
+		int accumulator = is_input ? mono_accumulator_of(node->input) : -1;
 		if (accumulator >= 0)
 			printer->name[i] = format(printer->style->accumulator, accumulator);
-		for (int var = 0; var < VARS && accumulator < 0 && dag->node[i].op == OP_INPUT; ++var)
-			if (dag->node[i].input == mono_var(var, 1))
+		for (int var = 0; var < VARS && accumulator < 0 && is_input; ++var)
+			if (node->input == mono_var(var, 1))
 				printer->name[i] = var_name(var);
 	}
 	for (int at = 0; at < program->count; ++at) {
@@ -161,12 +166,14 @@ static char *operand(const Printer *printer, Ref ref, int parent)
 	return format("(%s)", text);
 }
 
-/* Constants first, then x0 y1 rather than y1 x0; addition and multiplication commute bit for bit. */
+/* Constants first, then x0 y1 rather than y1 x0;
+ * addition and multiplication commute bit for bit. */
 static int reads_better_swapped(const Printer *printer, const Node *node)
 {
 	if (op_operands(node->op) < 2 || node->op == OP_SUB)
 		return 0;
-	const Node *a = &printer->program->dag->node[node->arg[0]], *b = &printer->program->dag->node[node->arg[1]];
+	const Node *a = &printer->program->dag->node[node->arg[0]];
+	const Node *b = &printer->program->dag->node[node->arg[1]];
 	if (a->op == OP_CONST || b->op == OP_CONST)
 		return b->op == OP_CONST;
 	const char *left = printer->name[node->arg[0]], *right = printer->name[node->arg[1]];
@@ -202,7 +209,8 @@ void emit_program(Text *text, const Program *program, const Style *style)
 {
 	Mark mark = arena_mark();
 	const Dag *dag = program->dag;
-	Printer printer = { program, style, allocate((size_t)dag->count * sizeof(char *)), dag_uses(dag) };
+	const char **names = allocate((size_t)dag->count * sizeof *names);
+	Printer printer = { program, style, names, dag_uses(dag) };
 	name_values(&printer);
 	for (int at = 0; at < program->count; ++at) {
 		Ref ref = program->order[at];
@@ -211,14 +219,15 @@ void emit_program(Text *text, const Program *program, const Style *style)
 			continue;
 		char *value = expression(&printer, ref, 1);
 		if (k >= 0)
-			emit_statement(text, style->indent, format("%s%s;", format(style->output, k), value));
+			value = format("%s%s;", format(style->output, k), value);
 		else
-			emit_statement(text, style->indent, format("const %s %s = %s;", style->precision->real,
-				printer.name[ref], value));
+			value = format("const %s %s = %s;", style->precision->real,
+				printer.name[ref], value);
+		emit_statement(text, style->indent, value);
 	}
 	for (int k = 0; k < dag->outs; ++k)          /* an output that is a bare accumulator */
 		if (op_operands(dag->node[dag->out[k]].op) == 0)
-			emit_statement(text, style->indent, format("%s%s;", format(style->output, k),
-				expression(&printer, dag->out[k], 0)));
+			emit_statement(text, style->indent, format("%s%s;",
+				format(style->output, k), expression(&printer, dag->out[k], 0)));
 	arena_release(mark);
 }

@@ -1,7 +1,9 @@
-/* emit_edge.c - single-edge functions ew_line_NAME, and the coefficient matrix in every form it is shown in.
+/* emit_edge.c - single-edge functions ew_line_NAME, and the coefficient matrix
+ * in every form it is shown in.
  *
- * The comment above a function shows the matrix that the body evaluates; --show prints the same matrix as text, LaTeX,
- * JSON or C. These functions are plain C for every machine: no target, no dispatch, the same bits everywhere. */
+ * The comment above a function shows the matrix that the body evaluates; --show prints the same
+ * matrix as text, LaTeX, JSON or C. These functions are plain C for every machine: no target,
+ * no dispatch, the same bits everywhere. */
 #include "gen.h"
 
 #include <string.h>
@@ -28,11 +30,14 @@ static char *entry(const Matrix *matrix, int p, int q)
 	bug("the coefficient matrix has a hole");
 }
 
-static char *powers(const char *start, const char *end, int i, int j, const char *times, const char *open)
+static char *powers(const char *start, const char *end, int i, int j, const char *times,
+	const char *open)
 {
 	const char *close = *open == '{' ? "}" : "";
-	char *left = i > 1 ? format("%s^%s%d%s", start, open, i, close) : format("%s", i ? start : "");
-	char *right = j > 1 ? format("%s^%s%d%s", end, open, j, close) : format("%s", j ? end : "");
+	char *left = i > 1 ? format("%s^%s%d%s", start, open, i, close)
+		: format("%s", i ? start : "");
+	char *right = j > 1 ? format("%s^%s%d%s", end, open, j, close)
+		: format("%s", j ? end : "");
 	return i + j == 0 ? format("1") : format("%s%s%s", left, i && j ? times : "", right);
 }
 
@@ -49,7 +54,8 @@ static void add_table(Text *text, const Matrix *matrix, const char *margin)
 			label = side > label ? side : label;
 		}
 	if ((int)strlen(margin) + label + (matrix->n + 1) * (width + 2) + 8 > WIDTH) {
-		text_add(text, "%s    (sum over p, q of C(p+q,q) C(m+n-p-q,n-q) x0^(m-p) x1^p y0^(n-q) y1^q)\n", margin);
+		text_add(text, "%s    (sum over p, q of C(p+q,q) C(m+n-p-q,n-q) "
+			"x0^(m-p) x1^p y0^(n-q) y1^q)\n", margin);
 		return;
 	}
 	text_add(text, "%s    %*s  ", margin, label, "");
@@ -57,7 +63,8 @@ static void add_table(Text *text, const Matrix *matrix, const char *margin)
 		text_add(text, "  %*s", width, powers("y0", "y1", matrix->n - q, q, " ", ""));
 	text_add(text, "\n");
 	for (int p = 0; p <= matrix->m; ++p) {
-		text_add(text, "%s    %-*s |", margin, label, powers("x0", "x1", matrix->m - p, p, " ", ""));
+		text_add(text, "%s    %-*s |", margin, label,
+			powers("x0", "x1", matrix->m - p, p, " ", ""));
 		for (int q = 0; q <= matrix->n; ++q)
 			text_add(text, "  %*s", width, entry(matrix, p, q));
 		text_add(text, " |\n");
@@ -68,12 +75,13 @@ static void add_formula(Text *text, const Edge *edge, const char *margin)
 {
 	if (edge->what->m < 0) {
 		char *factor = rat_text(poly_content(edge->integral.density));
-		text_add(text, "%s    %s (x0 y1 - x1 y0) times the sum in the body\n", margin, factor);
+		text_add(text, "%s    %s (x0 y1 - x1 y0) times the sum in the body\n", margin,
+			factor);
 		return;
 	}
 	Matrix matrix = matrix_of(edge);
-	text_add(text, "%s    %s (x0 y1 - x1 y0) times the sum of row times column times\n%.*s\n", margin,
-		rat_text(matrix.factor), (int)strlen(margin) - (*margin != 0), margin);
+	text_add(text, "%s    %s (x0 y1 - x1 y0) times the sum of row times column times\n%.*s\n",
+		margin, rat_text(matrix.factor), (int)strlen(margin) - (*margin != 0), margin);
 	add_table(text, &matrix, margin);
 }
 
@@ -83,17 +91,20 @@ void emit_edge(Text *text, const Edge *edge, const Precision *precision)
 	const Program *program = &edge->program;
 	const char *real = precision->real;
 	Mark mark = arena_mark();
-	text_add(text, "/* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of %s:\n *\n", edge->what->formula);
+	text_add(text, "/* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of "
+		"%s:\n *\n", edge->what->formula);
 	add_formula(text, edge, " * ");
 	text_add(text, " *\n * Sum it over a closed boundary; counterclockwise is positive.");
 	if (edge->what->m >= 0)
 		text_add(text, " Unit: coordinate^%d.", edge->what->m + edge->what->n + 2);
-	text_add(text, "\n * Error: at most gamma_%d times the same sum with every term positive; gamma_k = k u/(1 - k u),\n"
-		" * u = %s.\n", edge->bound.k, precision->unit);
-	text_add(text, " * Swapping the ends negates the result bit for bit; a repeated vertex gives 0.\n");
-	text_add(text, " * Cost: %d mul, %d add; depth %d. */\n", program->cost.fma, program->cost.add, program->depth);
-	text_add(text, "%s ew_line_%s%s(%s x0, %s y0, %s x1, %s y1)\n{\n", real, edge->what->name, precision->suffix,
-		real, real, real, real);
+	text_add(text, "\n * Error: at most gamma_%d times the same sum with every term positive; "
+		"gamma_k = k u/(1 - k u),\n * u = %s.\n", edge->bound.k, precision->unit);
+	text_add(text, " * Swapping the ends negates the result bit for bit; "
+		"a repeated vertex gives 0.\n");
+	text_add(text, " * Cost: %d mul, %d add; depth %d. */\n", program->cost.fma,
+		program->cost.add, program->depth);
+	text_add(text, "%s ew_line_%s%s(%s x0, %s y0, %s x1, %s y1)\n{\n", real, edge->what->name,
+		precision->suffix, real, real, real, real);
 	emit_program(text, program, &style);
 	text_add(text, "}\n");
 	arena_release(mark);
@@ -107,8 +118,8 @@ void emit_edges(Files *files, const Request *request, const Kernels *kernels)
 			continue;
 		const char *name = format("edgewise_line%s.c", precision->suffix);
 		Text *text = file_new(files, name);
-		emit_banner(text, name, format("contribution of one line edge to an integral, %s", precision->real),
-			request);
+		emit_banner(text, name, format("contribution of one line edge to an integral, %s",
+			precision->real), request);
 		text_add(text, "\n#include \"edgewise.h\"\n#include \"edgewise_kernels.h\"\n");
 		for (int k = 0; k < kernels->edges; ++k) {
 			text_add(text, "\n");
@@ -121,17 +132,19 @@ void emit_edges(Files *files, const Request *request, const Kernels *kernels)
 
 static void show_text(Text *text, const Edge *edge)
 {
-	text_add(text, "integral of %s, contribution of the line edge (x0,y0) -> (x1,y1):\n\n", edge->what->formula);
+	text_add(text, "integral of %s, contribution of the line edge (x0,y0) -> (x1,y1):\n\n",
+		edge->what->formula);
 	add_formula(text, edge, "");
 }
 
 static void show_latex(Text *text, const Edge *edge)
 {
 	Matrix matrix = matrix_of(edge);
-	text_add(text, "\\frac{%s}{%s}\\,(x_0 y_1 - x_1 y_0)\n\\begin{bmatrix}", int_text(matrix.factor.num),
-		int_text(matrix.factor.den));
+	text_add(text, "\\frac{%s}{%s}\\,(x_0 y_1 - x_1 y_0)\n\\begin{bmatrix}",
+		int_text(matrix.factor.num), int_text(matrix.factor.den));
 	for (int p = 0; p <= matrix.m; ++p)
-		text_add(text, "%s %s", p ? " &" : "", powers("x_0", "x_1", matrix.m - p, p, " ", "{"));
+		text_add(text, "%s %s", p ? " &" : "",
+			powers("x_0", "x_1", matrix.m - p, p, " ", "{"));
 	text_add(text, " \\end{bmatrix}\n\\begin{bmatrix}\n");
 	for (int p = 0; p <= matrix.m; ++p) {
 		for (int q = 0; q <= matrix.n; ++q)
@@ -140,20 +153,24 @@ static void show_latex(Text *text, const Edge *edge)
 	}
 	text_add(text, "\\end{bmatrix}\n\\begin{bmatrix}");
 	for (int q = 0; q <= matrix.n; ++q)
-		text_add(text, "%s %s", q ? " \\\\" : "", powers("y_0", "y_1", matrix.n - q, q, " ", "{"));
+		text_add(text, "%s %s", q ? " \\\\" : "",
+			powers("y_0", "y_1", matrix.n - q, q, " ", "{"));
 	text_add(text, " \\end{bmatrix}\n");
 }
 
 static void show_json(Text *text, const Edge *edge)
 {
 	Matrix matrix = matrix_of(edge);
-	text_add(text, "{\"monomial\": \"%s\", \"edge\": \"line\", \"factor\": \"%s\", \"times\": \"x0 y1 - x1 y0\",\n \"rows\": [",
+	text_add(text, "{\"monomial\": \"%s\", \"edge\": \"line\", \"factor\": \"%s\", "
+		"\"times\": \"x0 y1 - x1 y0\",\n \"rows\": [",
 		edge->what->name, rat_text(matrix.factor));
 	for (int p = 0; p <= matrix.m; ++p)
-		text_add(text, "%s\"%s\"", p ? ", " : "", powers("x0", "x1", matrix.m - p, p, " ", ""));
+		text_add(text, "%s\"%s\"", p ? ", " : "",
+			powers("x0", "x1", matrix.m - p, p, " ", ""));
 	text_add(text, "],\n \"columns\": [");
 	for (int q = 0; q <= matrix.n; ++q)
-		text_add(text, "%s\"%s\"", q ? ", " : "", powers("y0", "y1", matrix.n - q, q, " ", ""));
+		text_add(text, "%s\"%s\"", q ? ", " : "",
+			powers("y0", "y1", matrix.n - q, q, " ", ""));
 	text_add(text, "],\n \"matrix\": [");
 	for (int p = 0; p <= matrix.m; ++p) {
 		text_add(text, "%s[", p ? ", " : "");
@@ -172,7 +189,8 @@ static void show_c(Text *text, const Edge *edge)
 void emit_show(Text *text, const Integrand *monomial, const char *format_name)
 {
 	static const struct { const char *name; void (*print)(Text *, const Edge *); } formats[] = {
-		{ "text", show_text }, { "latex", show_latex }, { "json", show_json }, { "c", show_c },
+		{ "text", show_text }, { "latex", show_latex },
+		{ "json", show_json }, { "c", show_c },
 	};
 	Edge edge = build_edge(monomial);
 	for (int i = 0; i < LENGTH(formats); ++i)

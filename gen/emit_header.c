@@ -1,7 +1,8 @@
 /* emit_header.c - edgewise.h: the public interface of one emission.
  *
- * One row per function: when it exists, its comment, its prototype. A prototype is written once; REAL and @ become
- * double and "", then float and "f". Comments stand above the first of the twins. */
+ * One row per function: when it exists, its comment, its prototype. A prototype is written once;
+ * REAL and @ become double and "", then float and "f". Comments stand above the first of the
+ * twins. */
 #include "gen.h"
 
 #include <string.h>
@@ -30,46 +31,63 @@ static int has_monomials(const Request *request)
 
 static const Entry rings[] = {
 	{ has_area,
-	"All moments M_mn = integral of x^m y^n over the region inside one ring, m + n <= degree, about (0,0). "
-	"out[EW_INDEX(m, n)] = M_mn, EW_MOMENTS(degree) values; unit: coordinate^(m+n+2). EW_BAD_DEGREE leaves out untouched. "
-	"Error: gamma_K times the same sum with every term positive, K = k + r (ceil(n/8) - 1) + 3 with k, r of the manifest "
-	"(float: 16 lanes, flushed to double every 1024 edges, so K does not grow with n). Far from the origin the "
-	"terms are large and cancel: use ew_moments_about or ew_central_moments there. Source: Green's theorem; Steger 1996.",
+	"All moments M_mn = integral of x^m y^n over the region inside one ring, m + n <= degree, "
+	"about (0,0). out[EW_INDEX(m, n)] = M_mn, EW_MOMENTS(degree) values; unit: "
+	"coordinate^(m+n+2). EW_BAD_DEGREE leaves out untouched. Error: gamma_K times the same sum "
+	"with every term positive, K = k + r (ceil(n/8) - 1) + 3 with k, r of the manifest (float: "
+	"16 lanes, flushed to double every 1024 edges, so K does not grow with n). Far from the "
+	"origin the terms are large and cancel: use ew_moments_about or ew_central_moments there. "
+	"Source: Green's theorem; Steger 1996.",
 	"int ew_moments@(int degree, const REAL *x, const REAL *y, size_t n, REAL *out)" },
 	{ has_area,
-	"The same about (cx,cy): the integral of (x-cx)^m (y-cy)^n. Each vertex is moved first, rounded once.",
-	"int ew_moments_about@(int degree, const REAL *x, const REAL *y, size_t n, REAL cx, REAL cy, REAL *out)" },
+	"The same about (cx,cy): the integral of (x-cx)^m (y-cy)^n. Each vertex is moved first, "
+	"rounded once.",
+	"int ew_moments_about@(int degree, const REAL *x, const REAL *y, size_t n, "
+	"REAL cx, REAL cy, REAL *out)" },
 	{ has_area,
 	"ew_moments of interleaved vertices: xy[2 i], xy[2 i + 1]. The same bits as ew_moments.",
 	"int ew_moments_xy@(int degree, const REAL *xy, size_t n, REAL *out)" },
 	{ has_area,
-	"Moments of the region moved by (dx,dy), from its moments: out_mn = sum C(m,i) C(n,j) dx^(m-i) dy^(n-j) in_ij. "
-	"in and out may be the same array. Error: gamma_(4 degree + 1) times that sum with every term positive.",
+	"Moments of the region moved by (dx,dy), from its moments: out_mn = sum C(m,i) C(n,j) "
+	"dx^(m-i) dy^(n-j) in_ij. in and out may be the same array. Error: gamma_(4 degree + 1) "
+	"times that sum with every term positive.",
 	"int ew_translate_moments@(int degree, const REAL *in, REAL dx, REAL dy, REAL *out)" },
 	{ has_monomials,
-	"One moment about (0,0): cheaper than all. NaN if x^m y^n was not emitted. Error as ew_moments.",
+	"One moment about (0,0): cheaper than all. NaN if x^m y^n was not emitted. Error as "
+	"ew_moments.",
 	"REAL ew_moment@(int m, int n_, const REAL *x, const REAL *y, size_t n)" },
 	{ has_area,
-	"Area, about the first vertex: 1/2 sum (x_i - x_0)(y_(i+1) - y_(i-1)); counterclockwise is positive. "
-	"Error: gamma_(4 + ceil(n/8) + 2) sum 1/2 |x_i - x_0| |y_(i+1) - y_(i-1)|, wherever the ring lies.",
+	"Area, about the first vertex: 1/2 sum (x_i - x_0)(y_(i+1) - y_(i-1)); counterclockwise is "
+	"positive. Error: gamma_(4 + ceil(n/8) + 2) sum 1/2 |x_i - x_0| |y_(i+1) - y_(i-1)|, "
+	"wherever the ring lies.",
 	"REAL ew_area@(const REAL *x, const REAL *y, size_t n)" },
 	{ has_centroid,
 	"Centroid, computed about the first vertex. If the area is 0: EW_ZERO_AREA, and c is NaN. "
-	"Error: |c - exact| <= (B + |c - v| A) / (|area| - A) + 4 u |c - v| + u |c|, A and B the bounds of area and first moment about vertex v.",
+	"Error: |c - exact| <= (B + |c - v| A) / (|area| - A) + 4 u |c - v| + u |c|, A and B the "
+	"bounds of area and first moment about vertex v.",
 	"int ew_centroid@(const REAL *x, const REAL *y, size_t n, REAL c[2])" },
 	{ has_centroid,
-	"Centroid and all moments about it; out[1] = out[2] = 0. Computed about the first vertex, then about the centroid, "
-	"so nothing cancels far from the origin. If the area is 0: EW_ZERO_AREA, c and out are NaN.",
-	"int ew_central_moments@(int degree, const REAL *x, const REAL *y, size_t n, REAL c[2], REAL *out)" },
+	"Centroid and all moments about it; out[1] = out[2] = 0. Computed about the first vertex, "
+	"then about the centroid, so nothing cancels far from the origin. If the area is 0: "
+	"EW_ZERO_AREA, c and out are NaN.",
+	"int ew_central_moments@(int degree, const REAL *x, const REAL *y, size_t n, REAL c[2], "
+	"REAL *out)" },
 };
 
 static const Entry dispatch[] = {
-	{ always, "Bit set of the targets that this build has and this CPU runs.", "unsigned ew_targets(void)" },
 	{ always,
-	"Forces one target (one bit of ew_targets); 0 returns to the best. EW_UNSUPPORTED changes nothing. For the whole process.",
+	"Bit set of the targets that this build has and this CPU runs.",
+	"unsigned ew_targets(void)" },
+	{ always,
+	"Forces one target (one bit of ew_targets); 0 returns to the best. EW_UNSUPPORTED changes "
+	"nothing. For the whole process.",
 	"int ew_use_target(unsigned target)" },
-	{ always, "\"portable\", \"fma\", ...; \"unknown\" if it is not one target.", "const char *ew_target_name(unsigned target)" },
-	{ always, "Version of the generator, \"major.minor.patch\".", "const char *ew_version(void)" },
+	{ always,
+	"\"portable\", \"fma\", ...; \"unknown\" if it is not one target.",
+	"const char *ew_target_name(unsigned target)" },
+	{ always,
+	"Version of the generator, \"major.minor.patch\".",
+	"const char *ew_version(void)" },
 };
 
 static void add_comment(Text *text, const char *comment)
@@ -118,47 +136,58 @@ static void add_entries(Text *text, const Entry *entry, int count, const Request
 }
 
 static const char *const PREAMBLE =
-	"An integral over a region is a sum over its edges. Counterclockwise is positive, holes run clockwise and "
-	"subtract, a self-overlapping region is weighted by its winding number: add up what the rings of a region "
-	"return.\n\n"
-	"A ring is n vertices (x[i], y[i]); the edge from the last to the first is implied, and a ring that repeats its "
-	"first vertex at the end is fine: a repeated vertex contributes exactly 0. n of 0, 1 or 2 gives 0. NaN or "
-	"infinity in gives NaN or infinity out. Inputs are never changed, nothing allocates, every function is "
-	"reentrant. Functions ending in f take and return float. u is 2^-53 (float: 2^-24) "
-	"and gamma_k is k u / (1 - k u).\n\n"
-	"Results have the same bits on every CPU and target with fused multiply-add; portable alone may differ.";
+	"An integral over a region is a sum over its edges. Counterclockwise is positive, holes "
+	"run clockwise and subtract, a self-overlapping region is weighted by its winding number: "
+	"add up what the rings of a region return.\n\n"
+	"A ring is n vertices (x[i], y[i]); the edge from the last to the first is implied, and a "
+	"ring that repeats its first vertex at the end is fine: a repeated vertex contributes "
+	"exactly 0. n of 0, 1 or 2 gives 0. NaN or infinity in gives NaN or infinity out. Inputs "
+	"are never changed, nothing allocates, every function is reentrant. Functions ending in f "
+	"take and return float. u is 2^-53 (float: 2^-24) and gamma_k is k u / (1 - k u).\n\n"
+	"Results have the same bits on every CPU and target with fused multiply-add; portable "
+	"alone may differ.";
 
 static void add_macros(Text *text, const Request *request)
 {
 	text_add(text, "\n#define EW_VERSION \"%s\"\n", GEN_VERSION);
 	if (request->moments >= 0)
 		text_add(text, "#define EW_MAX_DEGREE %d\n"
-			"#define EW_MOMENTS(degree) (((degree) + 1) * ((degree) + 2) / 2)  /* monomials to this degree */\n"
-			"#define EW_INDEX(m, n) (((m) + (n)) * ((m) + (n) + 1) / 2 + (n))  /* 1, x, y, x^2, x y, ... */\n",
+			"#define EW_MOMENTS(degree) (((degree) + 1) * ((degree) + 2) / 2)"
+			"  /* monomials to this degree */\n"
+			"#define EW_INDEX(m, n) (((m) + (n)) * ((m) + (n) + 1) / 2 + (n))"
+			"  /* 1, x, y, x^2, x y, ... */\n",
 			request->moments);
 	for (int i = 0; i < precision_count; ++i)
 		if (request->precisions & precisions[i].bit)
-			text_add(text, "#define EW_HAS_%s 1\n", precisions[i].is_float ? "FLOAT" : "DOUBLE");
-	text_add(text, "\nenum {\n\tEW_PORTABLE = 1,\n\tEW_FMA = 2,\n\tEW_AVX2 = 4,\n\tEW_AVX512 = 8,\n\tEW_NEON = 16,\n"
-		"\tEW_WASM128 = 32\n};\nenum {\n\tEW_OK = 0,\n\tEW_BAD_DEGREE,\n\tEW_BAD_PATH,\n\tEW_BAD_OFFSETS,\n\tEW_BAD_IMAGE,\n\tEW_BAD_COORDINATE,\n"
-		"\tEW_ZERO_AREA,\n\tEW_NO_MEMORY,\n\tEW_UNSUPPORTED\n};\n");
+			text_add(text, "#define EW_HAS_%s 1\n",
+				precisions[i].is_float ? "FLOAT" : "DOUBLE");
+	text_add(text, "\nenum {\n\tEW_PORTABLE = 1,\n\tEW_FMA = 2,\n\tEW_AVX2 = 4,\n"
+		"\tEW_AVX512 = 8,\n\tEW_NEON = 16,\n\tEW_WASM128 = 32\n};\n");
+	text_add(text, "enum {\n\tEW_OK = 0,\n\tEW_BAD_DEGREE,\n\tEW_BAD_PATH,\n\tEW_BAD_OFFSETS,\n"
+		"\tEW_BAD_IMAGE,\n\tEW_BAD_COORDINATE,\n\tEW_ZERO_AREA,\n\tEW_NO_MEMORY,\n"
+		"\tEW_UNSUPPORTED\n};\n");
 }
 
 static void add_edges(Text *text, const Request *request, const Kernels *kernels)
 {
-	add_comment(text, "Contribution of one line edge (x0,y0) -> (x1,y1) to the integral of x^m y^n or of a polynomial: "
-		"m! n!/(m+n+2)! (x0 y1 - x1 y0) sum_pq C(p+q,q) C(m+n-p-q,n-q) x0^(m-p) x1^p y0^(n-q) y1^q. Swapping the ends "
-		"negates it bit for bit. NaN or infinity in gives NaN or infinity out. The matrix, the error bound and the cost "
-		"stand above each body. Source: Green's theorem; Steger 1996.");
+	add_comment(text, "Contribution of one line edge (x0,y0) -> (x1,y1) to the integral of "
+		"x^m y^n or of a polynomial: m! n!/(m+n+2)! (x0 y1 - x1 y0) "
+		"sum_pq C(p+q,q) C(m+n-p-q,n-q) x0^(m-p) x1^p y0^(n-q) y1^q. Swapping the ends "
+		"negates it bit for bit. NaN or infinity in gives NaN or infinity out. The matrix, "
+		"the error bound and the cost stand above each body. "
+		"Source: Green's theorem; Steger 1996.");
 	for (int i = 0; i < kernels->edges; ++i)
-		add_twins(text, format("REAL ew_line_%s@(REAL x0, REAL y0, REAL x1, REAL y1)", kernels->edge[i].what->name), request);
+		add_twins(text, format("REAL ew_line_%s@(REAL x0, REAL y0, REAL x1, REAL y1)",
+			kernels->edge[i].what->name), request);
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
 		if (ring->m >= 0)
 			continue;
-		add_comment(text, format("Integral of %s over one ring. Error: gamma_K as ew_moments, k = %d.",
-			request->polynomial[i - (kernels->rings - request->polynomials)].formula, ring->worst.k));
-		add_twins(text, format("REAL ew_%s@(const REAL *x, const REAL *y, size_t n)", ring->name), request);
+		int number = i - (kernels->rings - request->polynomials);
+		add_comment(text, format("Integral of %s over one ring. Error: gamma_K as "
+			"ew_moments, k = %d.", request->polynomial[number].formula, ring->worst.k));
+		add_twins(text, format("REAL ew_%s@(const REAL *x, const REAL *y, size_t n)",
+			ring->name), request);
 	}
 }
 

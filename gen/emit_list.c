@@ -1,6 +1,8 @@
-/* emit_list.c - edgewise_kernels.h, the one list of kernels that feeds dispatch, tests and benchmarks, and the manifest.
+/* emit_list.c - edgewise_kernels.h, the one list of kernels that feeds dispatch, tests and
+ * benchmarks, and the manifest.
  *
- * No kernel can exist untested or undispatched: whoever needs "all kernels" expands one of these X-macros. */
+ * No kernel can exist untested or undispatched: whoever needs "all kernels" expands one
+ * of these X-macros. */
 #include "gen.h"
 
 #include <string.h>
@@ -23,33 +25,42 @@ static char *ring_id(const Ring *ring)
 static void add_environment(Text *text, const Request *request)
 {
 	text_add(text, "\n#if defined(__FAST_MATH__) && !defined(EW_ALLOW_FAST_MATH)\n"
-		"#error \"-ffast-math breaks the error bounds; define EW_ALLOW_FAST_MATH to accept that\"\n#endif\n\n"
-		"/* a * b + c must not become one operation behind our back: it would break x0 y1 - x1 y0 == 0 on a\n"
-		" * repeated vertex, and equal bits on all machines. */\n"
+		"#error \"-ffast-math breaks the error bounds; define EW_ALLOW_FAST_MATH to accept "
+		"that\"\n#endif\n\n"
+		"/* a * b + c must not become one operation behind our back: it would break "
+		"x0 y1 - x1 y0 == 0 on a\n * repeated vertex, and equal bits on all machines. */\n"
 		"#if defined(__clang__)\n#pragma clang fp contract(off)\n"
-		"#elif defined(__GNUC__) && !defined(__TINYC__)\n#pragma GCC optimize (\"fp-contract=off\")\n"
+		"#elif defined(__GNUC__) && !defined(__TINYC__)\n"
+		"#pragma GCC optimize (\"fp-contract=off\")\n"
 		"#elif defined(_MSC_VER)\n#pragma fp_contract(off)\n#endif\n\n");
 	if (!(request->targets & TARGET_FMA)) {
 		text_add(text, "#define EW_BUILD_FMA 0\n");
 		return;
 	}
-	text_add(text, "/* Can this compiler build the fma kernels, and how? The CPU is asked at run time. */\n"
-		"#if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__)) && !defined(__TINYC__)\n"
-		"#define EW_BUILD_FMA 1\n#define EW_ATTRIBUTE_FMA __attribute__((target(\"fma\")))\n"
-		"#elif defined(__aarch64__) || defined(_M_ARM64) || defined(_M_X64) || defined(__FP_FAST_FMA)\n"
-		"#define EW_BUILD_FMA 1\n#define EW_ATTRIBUTE_FMA\n#else\n#define EW_BUILD_FMA 0\n#endif\n");
+	text_add(text, "/* Can this compiler build the fma kernels, and how? "
+		"The CPU is asked at run time. */\n"
+		"#if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__)) "
+		"&& !defined(__TINYC__)\n"
+		"#define EW_BUILD_FMA 1\n"
+		"#define EW_ATTRIBUTE_FMA __attribute__((target(\"fma\")))\n"
+		"#elif defined(__aarch64__) || defined(_M_ARM64) || defined(_M_X64) "
+		"|| defined(__FP_FAST_FMA)\n"
+		"#define EW_BUILD_FMA 1\n#define EW_ATTRIBUTE_FMA\n"
+		"#else\n#define EW_BUILD_FMA 0\n#endif\n");
 }
 
 static void add_lines(Text *text, const Request *request, const Kernels *kernels)
 {
 	for (int p = 0; p < precision_count; ++p) {
-		text_add(text, "\n/* X(m, n, symbol, k): single edges; |result - exact| <= gamma_k W */\n#define EW_LINES_%s(X)",
-			upper(precisions[p].real));
-		for (int i = 0; i < kernels->edges && request->precisions & precisions[p].bit; ++i) {
+		int wanted = (request->precisions & precisions[p].bit) != 0;
+		text_add(text, "\n/* X(m, n, symbol, k): single edges; |result - exact| <= gamma_k "
+			"W */\n#define EW_LINES_%s(X)", upper(precisions[p].real));
+		for (int i = 0; i < kernels->edges && wanted; ++i) {
 			const Edge *edge = &kernels->edge[i];
 			if (edge->what->m >= 0)
-				text_add(text, " \\\n\tX(%d, %d, ew_line_%s%s, %d)", edge->what->m, edge->what->n,
-					edge->what->name, precisions[p].suffix, edge->bound.k);
+				text_add(text, " \\\n\tX(%d, %d, ew_line_%s%s, %d)", edge->what->m,
+					edge->what->n, edge->what->name, precisions[p].suffix,
+					edge->bound.k);
 		}
 		text_add(text, "\n");
 	}
@@ -66,32 +77,37 @@ static int has_monomials(const Kernels *kernels)
 static void add_ids(Text *text, const Kernels *kernels)
 {
 	int accumulators = 1, outputs = 1;
-	text_add(text, "\n/* X(id, family, m, n, accumulators, outputs, k, r): all that runs over rings. For n items in\n"
-		" * L lanes |result - exact| <= gamma_K W with K = k + r (ceil(n/L) - 1) + log2 L. */\n#define EW_RINGS(X)");
+	text_add(text, "\n/* X(id, family, m, n, accumulators, outputs, k, r): all that runs over "
+		"rings. For n items in\n * L lanes |result - exact| <= gamma_K W "
+		"with K = k + r (ceil(n/L) - 1) + log2 L. */\n#define EW_RINGS(X)");
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
-		text_add(text, " \\\n\tX(%s, %s, %d, %d, %d, %d, %d, %d)", ring_id(ring), ring->family, ring->m, ring->n,
-			ring->accumulators, ring->outputs, ring->worst.k, ring->worst.repeat);
-		accumulators = ring->accumulators > accumulators ? ring->accumulators : accumulators;
-		outputs = ring->outputs > outputs ? ring->outputs : outputs;
+		text_add(text, " \\\n\tX(%s, %s, %d, %d, %d, %d, %d, %d)", ring_id(ring),
+			ring->family, ring->m, ring->n, ring->accumulators, ring->outputs,
+			ring->worst.k, ring->worst.repeat);
+		if (ring->accumulators > accumulators)
+			accumulators = ring->accumulators;
+		if (ring->outputs > outputs)
+			outputs = ring->outputs;
 	}
 	text_add(text, "\n\nenum {\n");
 	for (int i = 0; i < kernels->rings; ++i)
 		text_add(text, "\t%s,\n", ring_id(&kernels->ring[i]));
-	text_add(text, "\tEW_RINGS_COUNT,\n\tEW_MAX_ACCUMULATORS = %d,\n\tEW_MAX_OUTPUTS = %d\n};\n", accumulators, outputs);
-	text_add(text, "\n/* X(id, window, accumulators, outputs, finish): for the ring driver; window counts vertices */\n"
-		"#define EW_RINGS_SHAPES(X)");
+	text_add(text, "\tEW_RINGS_COUNT,\n\tEW_MAX_ACCUMULATORS = %d,\n\tEW_MAX_OUTPUTS = %d\n"
+		"};\n", accumulators, outputs);
+	text_add(text, "\n/* X(id, window, accumulators, outputs, finish): for the ring driver; "
+		"window counts vertices */\n#define EW_RINGS_SHAPES(X)");
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
-		text_add(text, " \\\n\tX(%s, %d, %d, %d, ew_ring_%s_finish)", ring_id(ring), ring->window, ring->accumulators,
-			ring->outputs, ring->name);
+		text_add(text, " \\\n\tX(%s, %d, %d, %d, ew_ring_%s_finish)", ring_id(ring),
+			ring->window, ring->accumulators, ring->outputs, ring->name);
 	}
 	text_add(text, "\n\n/* X(m, n, id): single moments */\n%s#define EW_MONOMIALS(X)",
 		has_monomials(kernels) ? "#define EW_HAS_MONOMIALS 1\n" : "");
 	for (int i = 0; i < kernels->rings; ++i)
 		if (strcmp(kernels->ring[i].family, "monomial") == 0)
-			text_add(text, " \\\n\tX(%d, %d, %s)", kernels->ring[i].m, kernels->ring[i].n,
-				ring_id(&kernels->ring[i]));
+			text_add(text, " \\\n\tX(%d, %d, %s)", kernels->ring[i].m,
+				kernels->ring[i].n, ring_id(&kernels->ring[i]));
 	text_add(text, "\n");
 }
 
@@ -103,28 +119,32 @@ static const Ring *ring_of(const Kernels *kernels, const Edge *edge)
 	bug("no ring kernel for %s", edge->what->name);
 }
 
-static void add_precision(Text *text, const Request *request, const Kernels *kernels, const Precision *precision)
+static void add_precision(Text *text, const Request *request, const Kernels *kernels,
+	const Precision *precision)
 {
 	const char *real = upper(precision->real);
-	text_add(text, "\n/* X(function, id, edge, k): a polynomial over a ring, and over one edge with its k; %s */\n"
+	text_add(text, "\n/* X(function, id, edge, k): a polynomial over a ring, "
+		"and over one edge with its k; %s */\n"
 		"#define EW_POLYNOMIALS_%s(X)", precision->real, real);
 	for (int i = 0; i < kernels->edges; ++i) {
 		const Edge *edge = &kernels->edge[i];
 		if (edge->what->m < 0)
-			text_add(text, " \\\n\tX(ew_%s%s, %s, ew_line_%s%s, %d)", edge->what->name, precision->suffix,
-				ring_id(ring_of(kernels, edge)), edge->what->name, precision->suffix, edge->bound.k);
+			text_add(text, " \\\n\tX(ew_%s%s, %s, ew_line_%s%s, %d)", edge->what->name,
+				precision->suffix, ring_id(ring_of(kernels, edge)),
+				edge->what->name, precision->suffix, edge->bound.k);
 	}
 	text_add(text, "\n");
 	for (int t = 0; t < target_count; ++t) {
 		if (!(request->targets & targets[t].bit))
 			continue;
-		text_add(text, "\n/* X(id, kernel, f, a): %s, %s; per item f on the FMA pipe, a additions */\n#define EW_RINGS_%s_%s(X)", targets[t].name, precision->real,
-			upper(targets[t].name), real);
+		text_add(text, "\n/* X(id, kernel, f, a): %s, %s; per item f on the FMA pipe, "
+			"a additions */\n#define EW_RINGS_%s_%s(X)", targets[t].name,
+			precision->real, upper(targets[t].name), real);
 		for (int i = 0; i < kernels->rings; ++i) {
 			const Ring *ring = &kernels->ring[i];
 			Count cost = targets[t].fused ? ring->fused.cost : ring->portable.cost;
-			text_add(text, " \\\n\tX(%s, ew_ring_%s%s_%s, %d, %d)", ring_id(ring), ring->name,
-				precision->suffix, targets[t].name, cost.fma, cost.add);
+			text_add(text, " \\\n\tX(%s, ew_ring_%s%s_%s, %d, %d)", ring_id(ring),
+				ring->name, precision->suffix, targets[t].name, cost.fma, cost.add);
 		}
 		text_add(text, "\n");
 	}
@@ -133,25 +153,30 @@ static void add_precision(Text *text, const Request *request, const Kernels *ker
 static void add_types(Text *text, const Request *request)
 {
 	text_add(text, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n"
-		"/* `count` items; cx is the abscissa of the local origin (vertex form only); added to\n"
-		" * sum[accumulator * lanes + lane]. Results: finish(sums over all lanes, out). */\n");
+		"/* `count` items; cx is the abscissa of the local origin (vertex form only); "
+		"added to\n * sum[accumulator * lanes + lane]. "
+		"Results: finish(sums over all lanes, out). */\n");
 	for (int p = 0; p < precision_count; ++p) {
 		const char *real = precisions[p].real;
 		if (request->precisions & precisions[p].bit)
-			text_add(text, "typedef void ew_ring_run%s(const %s *x, const %s *y, %s cx, size_t count, %s *sum);\n",
-				precisions[p].suffix, real, real, real, real);
+			text_add(text, "typedef void ew_ring_run%s(const %s *x, const %s *y, "
+				"%s cx, size_t count, %s *sum);\n", precisions[p].suffix,
+				real, real, real, real);
 	}
 	text_add(text, "typedef void ew_ring_finish(const double *sum, double *out);\n\n"
-		"#define EW_DECLARE(id, window, accumulators, outputs, finish) ew_ring_finish finish;\n"
+		"#define EW_DECLARE(id, window, accumulators, outputs, finish) "
+		"ew_ring_finish finish;\n"
 		"EW_RINGS_SHAPES(EW_DECLARE)\n#undef EW_DECLARE\n");
 	for (int p = 0; p < precision_count; ++p)
 		for (int t = 0; t < target_count; ++t) {
 			const Target *target = &targets[t];
-			if (!(request->targets & target->bit) || !(request->precisions & precisions[p].bit))
+			if (!(request->targets & target->bit)
+			    || !(request->precisions & precisions[p].bit))
 				continue;
 			if (target->guard)
 				text_add(text, "#if %s\n", target->guard);
-			text_add(text, "#define EW_DECLARE(id, kernel, f, a) ew_ring_run%s kernel;\nEW_RINGS_%s_%s(EW_DECLARE)\n"
+			text_add(text, "#define EW_DECLARE(id, kernel, f, a) "
+				"ew_ring_run%s kernel;\nEW_RINGS_%s_%s(EW_DECLARE)\n"
 				"#undef EW_DECLARE\n%s", precisions[p].suffix, upper(target->name),
 				upper(precisions[p].real), target->guard ? "#endif\n" : "");
 		}
@@ -162,8 +187,10 @@ void emit_list(Files *files, const Request *request, const Kernels *kernels)
 {
 	const char *name = "edgewise_kernels.h";
 	Text *text = file_new(files, name);
-	emit_banner(text, name, "the list of kernels, for the runtime, tests and benchmarks; not for users", request);
-	text_add(text, "#ifndef EDGEWISE_KERNELS_H\n#define EDGEWISE_KERNELS_H\n\n#include <stddef.h>\n");
+	emit_banner(text, name, "the list of kernels, for the runtime, tests and benchmarks; "
+		"not for users", request);
+	text_add(text, "#ifndef EDGEWISE_KERNELS_H\n#define EDGEWISE_KERNELS_H\n\n"
+		"#include <stddef.h>\n");
 	add_environment(text, request);
 	add_lines(text, request, kernels);
 	add_ids(text, kernels);
@@ -174,12 +201,14 @@ void emit_list(Files *files, const Request *request, const Kernels *kernels)
 	text_add(text, "\n#endif\n");
 }
 
-/* ---- manifest: JSON, one file and one kernel per line, so that a line reader can use it too ---- */
+/* ---- manifest: JSON, one file and one kernel per line, so that line readers can use it ---- */
 
 static void add_count(Text *text, const char *key, const Program *program)
 {
-	text_add(text, ", \"%s\": {\"mul\": %d, \"fma\": %d, \"add\": %d, \"live\": %d, \"depth\": %d}", key,
-		program->cost.mul, program->cost.fma - program->cost.mul, program->cost.add, program->live, program->depth);
+	const Count cost = program->cost;
+	text_add(text, ", \"%s\": {\"mul\": %d, \"fma\": %d, \"add\": %d, \"live\": %d, "
+		"\"depth\": %d}", key, cost.mul, cost.fma - cost.mul, cost.add, program->live,
+		program->depth);
 }
 
 static char *quoted(const char *text)
@@ -197,8 +226,8 @@ static void add_edges(Text *text, const Kernels *kernels)
 	text_add(text, " \"edges\": [");
 	for (int i = 0; i < kernels->edges; ++i) {
 		const Edge *edge = &kernels->edge[i];
-		text_add(text, "%s\n  {\"function\": \"ew_line_%s\", \"integrand\": %s, \"k\": %d", i ? "," : "", edge->what->name,
-			quoted(edge->what->formula), edge->bound.k);
+		text_add(text, "%s\n  {\"function\": \"ew_line_%s\", \"integrand\": %s, \"k\": %d",
+			i ? "," : "", edge->what->name, quoted(edge->what->formula), edge->bound.k);
 		add_count(text, "portable", &edge->program);
 		text_add(text, "}");
 	}
@@ -210,9 +239,10 @@ static void add_rings(Text *text, const Request *request, const Kernels *kernels
 	text_add(text, " \"rings\": [");
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
-		text_add(text, "%s\n  {\"ring\": \"%s\", \"family\": \"%s\", \"scheme\": \"%s\", \"window\": %d, "
-			"\"accumulators\": %d, \"outputs\": %d", i ? "," : "", ring->name, ring->family, ring->scheme,
-			ring->window, ring->accumulators, ring->outputs);
+		text_add(text, "%s\n  {\"ring\": \"%s\", \"family\": \"%s\", \"scheme\": \"%s\", "
+			"\"window\": %d, \"accumulators\": %d, \"outputs\": %d", i ? "," : "",
+			ring->name, ring->family, ring->scheme, ring->window, ring->accumulators,
+			ring->outputs);
 		add_count(text, "portable", &ring->portable);
 		if (request->targets & TARGET_FMA)
 			add_count(text, "fma", &ring->fused);
@@ -226,7 +256,8 @@ static void add_rings(Text *text, const Request *request, const Kernels *kernels
 
 void emit_manifest(Text *text, const Request *request, const Kernels *kernels)
 {
-	text_add(text, "{\"generator\": \"gen %s\",\n \"command\": %s,\n", GEN_VERSION, quoted(request->command));
+	text_add(text, "{\"generator\": \"gen %s\",\n \"command\": %s,\n", GEN_VERSION,
+		quoted(request->command));
 	add_edges(text, kernels);
 	add_rings(text, request, kernels);
 }

@@ -1,13 +1,15 @@
-/* emit_ring.c - the kernels that run over rings, one row of the table of targets each, and the finish functions.
+/* emit_ring.c - the kernels that run over rings, one row of the table of targets each,
+ * and the finish functions.
  *
- * This fixes the definition that every target reproduces bit for bit (portable, which has no FMA, excepted): with L
- * virtual lanes (8 for double, 16 for float), item i goes to lane i mod L, and every accumulator of a lane takes its items
- * in order. A scalar kernel runs one lane after the other over a block that stays in the nearest cache; a vector
- * kernel may run lanes side by side. Items are edges (x[i], y[i]) -> (x[i+1], y[i+1]); for the vertex form, vertex
- * i+1 between its neighbours. */
+ * This fixes the definition that every target reproduces bit for bit
+ * (portable, which has no FMA, excepted): with L virtual lanes (8 for double, 16 for float),
+ * item i goes to lane i mod L, and every accumulator of a lane takes its items in order.
+ * A scalar kernel runs one lane after the other over a block that stays in the nearest cache;
+ * a vector kernel may run lanes side by side. Items are edges (x[i], y[i]) -> (x[i+1], y[i+1]);
+ * for the vertex form, vertex i+1 between its neighbours. */
 #include "gen.h"
 
-enum { FILE_SIZE = 120000 };                         /* start another file beyond it: nobody reviews more */
+enum { FILE_SIZE = 120000 };   /* start another file beyond it: nobody reviews more */
 
 static char *describe(const Ring *ring)
 {
@@ -15,45 +17,55 @@ static char *describe(const Ring *ring)
 		return format("all moments of x^m y^n, m + n <= %d", ring->m);
 	if (ring->m < 0)
 		return format("integral of %s, a polynomial", ring->name);
-	return ring->m + ring->n ? format("integral of x^%d y^%d", ring->m, ring->n) : format("area");
+	if (ring->m + ring->n == 0)
+		return format("area");
+	return format("integral of x^%d y^%d", ring->m, ring->n);
 }
 
-static void add_signature(Text *text, const Ring *ring, const Target *target, const Precision *precision)
+static void add_signature(Text *text, const Ring *ring, const Target *target,
+	const Precision *precision)
 {
 	const char *real = precision->real;
-	text_add(text, "void ew_ring_%s%s_%s(\n\tconst %s *x, const %s *y, %s cx, size_t count, %s *sum)", ring->name,
-		precision->suffix, target->name, real, real, real, real);
+	text_add(text, "void ew_ring_%s%s_%s(\n\t", ring->name, precision->suffix, target->name);
+	text_add(text, "const %s *x, const %s *y, %s cx, size_t count, %s *sum)", real, real, real,
+		real);
 }
 
 static void add_loads(Text *text, const Ring *ring, const char *real)
 {
 	static const struct { const char *name, *value; int window; } loads[] = {
-		{ "x0", "x[i]", 2 }, { "y0", "y[i]", 2 }, { "x1", "x[i + 1]", 2 }, { "y1", "y[i + 1]", 2 },
+		{ "x0", "x[i]", 2 }, { "y0", "y[i]", 2 },
+		{ "x1", "x[i + 1]", 2 }, { "y1", "y[i + 1]", 2 },
 		{ "y0", "y[i]", 3 }, { "x1", "x[i + 1]", 3 }, { "y2", "y[i + 2]", 3 },
 	};
 	for (int i = 0; i < LENGTH(loads); ++i)
 		if (loads[i].window == ring->window)
-			text_add(text, "\t\t\tconst %s %s = %s;\n", real, loads[i].name, loads[i].value);
+			text_add(text, "\t\t\tconst %s %s = %s;\n", real, loads[i].name,
+				loads[i].value);
 }
 
 static char *lane_sum(int accumulator, const Precision *precision)
 {
-	return accumulator ? format("sum[%d + lane]", accumulator * precision->lanes) : format("sum[lane]");
+	if (accumulator == 0)
+		return format("sum[lane]");
+	return format("sum[%d + lane]", accumulator * precision->lanes);
 }
 
-static void add_kernel(Text *text, const Ring *ring, const Target *target, const Precision *precision)
+static void add_kernel(Text *text, const Ring *ring, const Target *target,
+	const Precision *precision)
 {
 	const Program *program = target->fused ? &ring->fused : &ring->portable;
 	const Style style = { precision, 0, 3, "acc%d", "acc%d = " };
 	text_add(text, "\n/* %s; scheme %s.\n", describe(ring), ring->scheme);
-	text_add(text, " * Cost per item: %d %s, %d add; %d accumulators, %d values alive, depth %d. */\n",
-		program->cost.fma, target->fused ? "mul or fma" : "mul", program->cost.add, ring->accumulators,
-		program->live, program->depth);
+	text_add(text, " * Cost per item: %d %s, %d add; %d accumulators, %d values alive, "
+		"depth %d. */\n", program->cost.fma, target->fused ? "mul or fma" : "mul",
+		program->cost.add, ring->accumulators, program->live, program->depth);
 	if (target->attribute)
 		text_add(text, "%s ", target->attribute);
 	add_signature(text, ring, target, precision);
 	text_add(text, "\n{\n%s", ring->window == 2 ? "\t(void)cx;\n" : "");
-	text_add(text, "\tfor (size_t lane = 0; lane < %d && lane < count; ++lane) {\n", precision->lanes);
+	text_add(text, "\tfor (size_t lane = 0; lane < %d && lane < count; ++lane) {\n",
+		precision->lanes);
 	for (int k = 0; k < ring->accumulators; ++k)
 		text_add(text, "\t\t%s acc%d = %s;\n", precision->real, k, lane_sum(k, precision));
 	text_add(text, "\t\tfor (size_t i = lane; i < count; i += %d) {\n", precision->lanes);
@@ -71,8 +83,8 @@ static const char *group_of(const Ring *ring)
 	return ring->family[0] == 'm' && ring->family[2] == 'm' ? "moments" : "integrands";
 }
 
-static Text *open_file(Files *files, const Request *request, const Target *target, const char *name,
-	const char *purpose)
+static Text *open_file(Files *files, const Request *request, const Target *target,
+	const char *name, const char *purpose)
 {
 	Text *text = file_new(files, name);
 	emit_banner(text, name, purpose, request);
@@ -88,8 +100,8 @@ static void close_file(Text *text, const Target *target)
 		text_add(text, "\n#else\ntypedef int ew_ring_not_built;\n#endif\n");
 }
 
-static void emit_target(Files *files, const Request *request, const Kernels *kernels, const Target *target,
-	const Precision *precision)
+static void emit_target(Files *files, const Request *request, const Kernels *kernels,
+	const Target *target, const Precision *precision)
 {
 	const char *group = "";
 	Text *text = NULL;
@@ -101,25 +113,30 @@ static void emit_target(Files *files, const Request *request, const Kernels *ker
 			close_file(text, target);
 			part = fresh ? 1 : part + 1;
 			group = group_of(ring);
-			const char *stem = format("edgewise_%s%s_%s", group, precision->suffix, target->name);
+			char *stem = format("edgewise_%s%s_%s", group, precision->suffix,
+				target->name);
 			text = open_file(files, request, target,
 				part > 1 ? format("%s_%d.c", stem, part) : format("%s.c", stem),
-				format("%s of rings, %s, %s", group, precision->real, target->about));
+				format("%s of rings, %s, %s", group, precision->real,
+					target->about));
 		}
 		add_kernel(text, ring, target, precision);
 	}
 	close_file(text, target);
 }
 
-/* From the sums of the accumulators over all items to the results; the same for every target and precision. */
+/* From the sums of the accumulators over all items to the results;
+ * the same for every target and precision. */
 static void emit_finish(Files *files, const Request *request, const Kernels *kernels)
 {
 	const Style style = { &precisions[0], 0, 1, "sum[%d]", "out[%d] = " };
-	Text *text = open_file(files, request, NULL, "edgewise_finish.c", "from accumulator sums to results");
+	Text *text = open_file(files, request, NULL, "edgewise_finish.c",
+		"from accumulator sums to results");
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
-		text_add(text, "\n/* %s */\nvoid ew_ring_%s_finish(const double *sum, double *out)\n{\n",
-			describe(ring), ring->name);
+		text_add(text, "\n/* %s */\n", describe(ring));
+		text_add(text, "void ew_ring_%s_finish(const double *sum, double *out)\n{\n",
+			ring->name);
 		emit_program(text, &ring->finish, &style);
 		text_add(text, "}\n");
 	}
@@ -129,7 +146,8 @@ void emit_rings(Files *files, const Request *request, const Kernels *kernels)
 {
 	for (int t = 0; t < target_count; ++t)
 		for (int p = 0; p < precision_count; ++p)
-			if (request->targets & targets[t].bit && request->precisions & precisions[p].bit)
+			if (request->targets & targets[t].bit
+			    && request->precisions & precisions[p].bit)
 				emit_target(files, request, kernels, &targets[t], &precisions[p]);
 	emit_finish(files, request, kernels);
 }

@@ -1,8 +1,9 @@
 /* evaluate.c - from a polynomial to operations: the pieces that schemes are made of.
  *
- * Leaves say which node stands for each variable, so the same code evaluates in the end points or in their sums and
- * differences. Powers are built from halves and products of both ends from the common part, so that equal powers are
- * equal nodes, and mirrored exponents give mirrored operations. */
+ * Leaves say which node stands for each variable, so the same code evaluates in the end
+ * points or in their sums and differences. Powers are built from halves and products
+ * of both ends from the common part, so that equal powers are equal nodes, and mirrored
+ * exponents give mirrored operations. */
 #include "gen.h"
 
 #include <stdlib.h>
@@ -17,7 +18,8 @@ Leaves ends(Dag *dag)
 	return leaves;
 }
 
-/* s = x0 y1 - x1 y0: two rounded products and a subtraction, so a repeated vertex gives exactly 0. */
+/* s = x0 y1 - x1 y0: two rounded products and a subtraction,
+ * so a repeated vertex gives exactly 0. */
 Ref cross(Dag *dag)
 {
 	Leaves end = ends(dag);
@@ -41,10 +43,13 @@ Ref difference_of(Dag *dag, int start, int end, const char *name)
 /* Name of p0^i p1^j: x001 for small powers, x5_3 beyond. */
 static const char *power_name(char axis, int i, int j)
 {
-	return i + j > 4 ? format("%c%d_%d", axis, i, j) : format("%c%.*s%.*s", axis, i, "0000", j, "1111");
+	if (i + j > 4)
+		return format("%c%d_%d", axis, i, j);
+	return format("%c%.*s%.*s", axis, i, "0000", j, "1111");
 }
 
-/* base^power from its halves, so that all powers share products; base is p0^i p1^j of an axis that has names, or 0. */
+/* base^power from its halves, so that all powers share products;
+ * base is p0^i p1^j of an axis that has names, or 0. */
 static Ref power_of(Dag *dag, Ref base, int power, char axis, int i, int j)
 {
 	if (power == 0)
@@ -58,14 +63,16 @@ static Ref power_of(Dag *dag, Ref base, int power, char axis, int i, int j)
 	return axis ? dag_name(dag, result, power_name(axis, power * i, power * j)) : result;
 }
 
-/* p0^i p1^j as (p0 p1)^min times the power that is left: mirrored exponents give mirrored operations. */
+/* p0^i p1^j as (p0 p1)^min times the power that is left:
+ * mirrored exponents give mirrored operations. */
 Ref axis_part(Dag *dag, const Leaves *leaves, Mono mono, const int *vars, char axis)
 {
 	int i = mono_power(mono, vars[0]), j = mono_power(mono, vars[1]), common = i < j ? i : j;
 	Ref p = leaves->ref[vars[0]], q = leaves->ref[vars[1]], both = dag_const(dag, rat(1, 1));
 	if (common)
 		both = power_of(dag, dag_mul(dag, p, q), common, axis, 1, 1);
-	Ref left = i > j ? power_of(dag, p, i - j, axis, 1, 0) : power_of(dag, q, j - i, axis, 0, 1);
+	Ref left = i > j ? power_of(dag, p, i - j, axis, 1, 0)
+		: power_of(dag, q, j - i, axis, 0, 1);
 	Ref result = dag_mul(dag, both, left);
 	return axis ? dag_name(dag, result, power_name(axis, i, j)) : result;
 }
@@ -112,7 +119,8 @@ Poly group_by(Poly a, const int *vars)
 	return sorted;
 }
 
-/* Sum over groups of equal outer part: (row / its common power product) * (common product * outer part). */
+/* Sum over groups of equal outer part:
+ * (row / its common power product) * (common product * outer part). */
 Ref grouped(Dag *dag, const Leaves *leaves, Poly density, const int *outer)
 {
 	Ref sum = NONE;
@@ -142,9 +150,13 @@ Ref horner(Dag *dag, Poly a, int var)
 	Ref sum = NONE;
 	for (int power = poly_degree(a, var); power >= 0; --power) {
 		Poly part = { 0, allocate((size_t)a.count * sizeof(Term)) };
-		for (int i = 0; i < a.count; ++i)
-			if (mono_power(a.term[i].mono, var) == power)
-				part.term[part.count++] = (Term){ a.term[i].mono - mono_var(var, power), a.term[i].coef };
+		for (int i = 0; i < a.count; ++i) {
+			Mono mono = a.term[i].mono;
+			if (mono_power(mono, var) == power)
+				part.term[part.count++] = (Term){
+					mono - mono_var(var, power), a.term[i].coef
+				};
+		}
 		if (sum != NONE)
 			sum = dag_mul(dag, sum, dag_var(dag, var));
 		sum = dag_add(dag, sum, horner(dag, part, var + 1));

@@ -1,8 +1,9 @@
 /* fuse.c - a b + c becomes one fused multiply-add; the only file that knows about it.
  *
- * A product is fused into the one sum that uses it; a product with more users stays, and so does the difference of
- * two products: x0 y1 - x1 y0 with one FMA would be neither antisymmetric nor 0 on a repeated vertex. Fusing only
- * removes roundings, so every error bound that holds before holds after. */
+ * A product is fused into the one sum that uses it; a product with more users stays,
+ * and so does the difference of two products: x0 y1 - x1 y0 with one FMA would be neither
+ * antisymmetric nor 0 on a repeated vertex. Fusing only removes roundings, so every error bound
+ * that holds before holds after. */
 #include "gen.h"
 
 typedef struct { const Dag *from; Dag *to; const int *uses; Ref *map; } Fusion;
@@ -41,7 +42,8 @@ static Ref fuse_node(const Fusion *f, const Node *node)
 
 Dag *fuse(const Dag *dag)
 {
-	Fusion f = { dag, dag_new(dag->scheme), dag_uses(dag), allocate((size_t)dag->count * sizeof(Ref)) };
+	Ref *map = allocate((size_t)dag->count * sizeof *map);
+	Fusion f = { dag, dag_new(dag->scheme), dag_uses(dag), map };
 	for (int i = 0; i < dag->count; ++i)
 		if (f.uses[i])
 			f.map[i] = dag_name(f.to, fuse_node(&f, &dag->node[i]), dag->node[i].name);

@@ -1,10 +1,11 @@
 /* gen.h - every type and prototype of the generator, one section per file, in pipeline order.
  *
- *     options, text --spec--> Request --green--> Integral (exact polynomials) --scheme--> Dag --fuse--> Dag
- *     --schedule--> Program --proof--> Kernels --emit--> Files --bundle--> disk
+ *     options, text --spec--> Request --green--> Integral (exact polynomials) --scheme--> Dag
+ *     --fuse--> Dag --schedule--> Program --proof--> Kernels --emit--> Files --bundle--> disk
  *
- * Nothing may call a function of a later section (`make layers` checks it). No floating point takes part
- * in any decision, and iteration is always in index order, so the output depends on the request alone. */
+ * Nothing may call a function of a later section (`make layers` checks it). No floating
+ * point takes part in any decision, and iteration is always in index order, so the output
+ * depends on the request alone. */
 #ifndef GEN_H
 #define GEN_H
 
@@ -12,43 +13,46 @@
 #include <stdint.h>
 
 #define GEN_VERSION "0.1.0"
-#define MAX_DEGREE 32    /* beyond it coefficients of curves and filters no longer fit 128-bit rationals */
+/* Beyond it coefficients of curves and filters no longer fit 128-bit rationals. */
+#define MAX_DEGREE 32
 #define LENGTH(array) ((int)(sizeof(array) / sizeof((array)[0])))
 
-/* ---- util.c: memory, text, the two ways to stop ------------------------------------------------------ */
+/* ---- util.c: memory, text, the two ways to stop ---------------------------------------------- */
 
-typedef struct { size_t chunk, used; } Mark;         /* a state of the arena */
-typedef struct { char *data; size_t size, room; } Text;   /* growable, always zero-terminated once written to */
+typedef struct { size_t chunk, used; } Mark; /* a state of the arena */
+typedef struct { char *data; size_t size, room; } Text;   /* grows; zero-terminated once written */
 
-void *allocate(size_t size);                   /* zeroed, from the arena; never NULL */
+void *allocate(size_t size);                 /* zeroed, from the arena; never NULL */
 Mark  arena_mark(void);
-void  arena_release(Mark mark);                /* frees all that was allocated since */
+void  arena_release(Mark mark);              /* frees all that was allocated since */
 char *copy_string(const char *text, size_t size);
 char *format(const char *pattern, ...) __attribute__((format(printf, 1, 2)));   /* in the arena */
 
 void text_add(Text *text, const char *pattern, ...) __attribute__((format(printf, 2, 3)));
 void text_append(Text *text, const char *data, size_t size);
-char *text_take(Text *text);                   /* copies it to the arena and frees it */
+char *text_take(Text *text);                 /* copies it to the arena and frees it */
 void text_free(Text *text);
 uint64_t text_hash(const char *data, size_t size);   /* FNV-1a, 64 bits */
 
 enum { EXIT_DONE = 0, EXIT_DIFFERENT = 1, EXIT_USAGE = 2 };
-typedef char *Locate(const void *reader, const char *message);   /* the message with file, line, column, caret */
-void reading(Locate *locate, const void *reader);    /* NULL NULL: no longer */
-void fatal(int status, const char *pattern, ...) __attribute__((noreturn, format(printf, 2, 3)));   /* user's fault */
-void bug(const char *pattern, ...) __attribute__((noreturn, format(printf, 1, 2)));                 /* ours: abort */
+/* The message with file, line, column and caret. */
+typedef char *Locate(const void *reader, const char *message);
+void reading(Locate *locate, const void *reader);   /* NULL NULL: no longer */
+/* The user's fault; ours, which aborts. */
+void fatal(int status, const char *pattern, ...) __attribute__((noreturn, format(printf, 2, 3)));
+void bug(const char *pattern, ...) __attribute__((noreturn, format(printf, 1, 2)));
 
-/* ---- rational.c: exact rationals on checked 128-bit integers; overflow is fatal, never a wrong digit -- */
+/* ---- rational.c: exact rationals on checked 128-bit integers; overflow is fatal, never wrong - */
 
 __extension__ typedef __int128 Int;
 __extension__ typedef unsigned __int128 Wide;
-typedef struct { Int num, den; } Rat;                /* lowest terms, den > 0 */
+typedef struct { Int num, den; } Rat;        /* lowest terms, den > 0 */
 
 Int  int_mul(Int a, Int b);
 Int  int_add(Int a, Int b);
 Int  int_gcd(Int a, Int b);
 Int  int_binomial(int n, int k);
-Rat  rat(Int num, Int den);                          /* reduced; den must not be 0 */
+Rat  rat(Int num, Int den);                  /* reduced; den must not be 0 */
 Rat  rat_add(Rat a, Rat b);
 Rat  rat_sub(Rat a, Rat b);
 Rat  rat_mul(Rat a, Rat b);
@@ -60,87 +64,90 @@ int  rat_compare(Rat a, Rat b);
 int  rat_is(Rat a, int value);
 Int  rat_ceil(Rat a);
 char *int_text(Int a);
-char *rat_text(Rat a);                               /* "-7/18" */
-int  rat_significant(Rat a);                         /* bits of the significand if a is dyadic, else 0 */
-char *rat_literal(Rat a, int is_float);              /* C literal of the nearest double or float, ties to even */
+char *rat_text(Rat a);                       /* "-7/18" */
+int  rat_significant(Rat a);                 /* bits of the significand if a is dyadic, else 0 */
+char *rat_literal(Rat a, int is_float);      /* C literal of the nearest value, ties to even */
 
-/* ---- polynomial.c: sparse polynomials over Q ---------------------------------------------------------- */
+/* ---- polynomial.c: sparse polynomials over Q ------------------------------------------------- */
 
-enum { VAR_X, VAR_Y,                                 /* integrand */
-       VAR_X0, VAR_Y0, VAR_X1, VAR_Y1, VAR_X2, VAR_Y2, VAR_X3, VAR_Y3,   /* vertices of the window */
-       VAR_CX,                                       /* abscissa of the local origin */
-       VAR_S, VAR_T,                                 /* Bernstein parameters of an edge, s = 1 - t */
+enum { VAR_X, VAR_Y,                         /* integrand */
+       VAR_X0, VAR_Y0, VAR_X1, VAR_Y1,       /* vertices of the window */
+       VAR_X2, VAR_Y2, VAR_X3, VAR_Y3,
+       VAR_CX,                               /* abscissa of the local origin */
+       VAR_S, VAR_T,                         /* Bernstein parameters of an edge, s = 1 - t */
        VARS };
-typedef Wide Mono;                                   /* 8 bits per variable; above them accumulator number + 1 */
+typedef Wide Mono;                           /* a byte per variable, above accumulator number + 1 */
 typedef struct { Mono mono; Rat coef; } Term;
-typedef struct { int count; Term *term; } Poly;      /* strictly descending monomials, no zero coefficient */
+typedef struct { int count; Term *term; } Poly;   /* strictly descending, no zero coefficient */
 
 const char *var_name(int var);
 Mono mono_var(int var, int power);
 Mono mono_accumulator(int index);
 int  mono_power(Mono mono, int var);
-int  mono_accumulator_of(Mono mono);                 /* index, or -1 */
+int  mono_accumulator_of(Mono mono);         /* index, or -1 */
 Mono mono_gcd(Mono a, Mono b);
 Mono mono_keep(Mono mono, const int *vars, int count);   /* the factor in these variables */
 Poly poly_zero(void);
 Poly poly_mono(Rat coef, Mono mono);
 Poly poly_const(Rat value);
 Poly poly_var(int var);
-Poly poly_collect(Term *term, int count);            /* sorts and merges; takes the array over */
+Poly poly_collect(Term *term, int count);    /* sorts and merges; takes the array over */
 Poly poly_add(Poly a, Poly b);
 Poly poly_sub(Poly a, Poly b);
 Poly poly_mul(Poly a, Poly b);
 Poly poly_scale(Poly a, Rat factor);
 Poly poly_pow(Poly a, int power);
-Poly poly_abs(Poly a);                               /* every coefficient positive */
+Poly poly_abs(Poly a);                       /* every coefficient positive */
 Poly poly_substitute(Poly a, const int *vars, const Poly *by, int count);
 int  poly_equal(Poly a, Poly b);
 int  poly_degree(Poly a, int var);
-Rat  poly_content(Poly a);                           /* c > 0 with a / c integer and coprime */
-char *poly_text(Poly a, const char *times);           /* times: " " in mathematics, "*" in the grammar of spec.c */
+Rat  poly_content(Poly a);                   /* c > 0 with a / c integer and coprime */
+/* times: " " in mathematics, "*" in the grammar of spec.c */
+char *poly_text(Poly a, const char *times);
 
-/* ---- spec.c: what is asked for, and its grammar ------------------------------------------------------- */
+/* ---- spec.c: what is asked for, and its grammar ---------------------------------------------- */
 
 typedef struct {
-	char *name;                                  /* x4y2, soft; part of every symbol */
-	int   m, n;                                  /* exponents of a monomial, or -1 -1 for a polynomial */
-	Poly  integrand;                             /* in VAR_X, VAR_Y */
-	char *formula;                               /* x^4 y^2, for comments */
+	char *name;                          /* x4y2, soft; part of every symbol */
+	int   m, n;                          /* exponents of a monomial; polynomial: -1 -1 */
+	Poly  integrand;                     /* in VAR_X, VAR_Y */
+	char *formula;                       /* x^4 y^2, for comments */
 } Integrand;
 
 enum { PRECISION_DOUBLE = 1, PRECISION_FLOAT = 2 };
-enum { TARGET_PORTABLE = 1, TARGET_FMA = 2 };        /* the bits of EW_PORTABLE, EW_FMA */
+enum { TARGET_PORTABLE = 1, TARGET_FMA = 2 };   /* the bits of EW_PORTABLE, EW_FMA */
 
 typedef struct {
-	int moments;                                 /* all moments to this degree; -1: the family is not asked for */
-	Integrand *monomial;   int monomials;        /* single-edge functions and single-moment rings */
+	int moments;                         /* all moments to this degree; -1: not asked for */
+	Integrand *monomial;   int monomials;   /* single-edge functions and single-moment rings */
 	Integrand *polynomial; int polynomials;
 	unsigned precisions, targets;
-	const char *prefix;                          /* NULL: ew and edgewise */
-	const char *command;                         /* canonical command line of this emission */
+	const char *prefix;                  /* NULL: ew and edgewise */
+	const char *command;                 /* canonical command line of this emission */
 } Request;
 
-Integrand spec_monomial(const char *text);           /* "x4y2" */
-Integrand spec_polynomial(const char *text);         /* "soft=(1-x)*(1-y)" */
-int  spec_degree(const char *text);                  /* 0 .. MAX_DEGREE */
-unsigned spec_list(const char *option, const char *text, const char *const *words, int count);   /* bit set */
+Integrand spec_monomial(const char *text);   /* "x4y2" */
+Integrand spec_polynomial(const char *text); /* "soft=(1-x)*(1-y)" */
+int  spec_degree(const char *text);          /* 0 .. MAX_DEGREE */
+/* A bit set. */
+unsigned spec_list(const char *option, const char *text, const char *const *words, int count);
 void spec_prefix(const char *text);
-void spec_complete(Request *request);                /* defaults, all monomials of the family, names, command */
+void spec_complete(Request *request);        /* defaults, monomials of the family, names, command */
 
-/* ---- green.c: integrand and edge -> exact polynomial; the only file that knows Green's theorem -------- */
+/* ---- green.c: integrand and edge -> exact polynomial; only here Green's theorem is known ----- */
 
 typedef struct {
-	Poly value;                                  /* the contribution of one line edge, form 3 */
-	Poly density;                                /* value = (x0 y1 - x1 y0) density */
-	Poly magnitude;                              /* the same sum with every term positive: W of the error bound */
+	Poly value;                          /* the contribution of one line edge, form 3 */
+	Poly density;                        /* value = (x0 y1 - x1 y0) density */
+	Poly magnitude;                      /* every term positive: W of the error bound */
 } Integral;
 
-Poly     green_cross(void);                          /* x0 y1 - x1 y0 */
+Poly     green_cross(void);                  /* x0 y1 - x1 y0 */
 Integral green_line(Poly integrand);
 
-/* ---- dag.c: hash-consed operations -------------------------------------------------------------------- */
+/* ---- dag.c: hash-consed operations ----------------------------------------------------------- */
 
-typedef uint32_t Ref;                                /* index of a node; a child is always smaller than its parent */
+typedef uint32_t Ref;                        /* index of a node; children are smaller */
 #define NONE UINT32_MAX
 #define OP(name, operands, fma, add, text) OP_##name,
 enum {
@@ -151,18 +158,18 @@ enum {
 typedef struct {
 	unsigned char op;
 	Ref  arg[3];
-	Rat  value;                                  /* of a CONST */
-	Mono input;                                  /* of an INPUT: a variable or an accumulator */
-	const char *name;                            /* what the formula calls it, or NULL */
+	Rat  value;                          /* of a CONST */
+	Mono input;                          /* of an INPUT: a variable or an accumulator */
+	const char *name;                    /* what the formula calls it, or NULL */
 } Node;
 
 typedef struct {
 	Node *node; int count, room;
-	Ref  *bucket; int buckets;                   /* hash table, a power of two */
-	Ref  *out; int outs;                         /* roots, in the order of the outputs */
-	Poly *finish; int finishes;                  /* moments as linear forms of the accumulators, or none */
-	const char *scheme;                          /* name of the scheme that built it */
-	int   window;                                /* consecutive vertices one item reads: 2 edge, 3 vertex form */
+	Ref  *bucket; int buckets;           /* hash table, a power of two */
+	Ref  *out; int outs;                 /* roots, in the order of the outputs */
+	Poly *finish; int finishes;          /* moments as linear forms of accumulators, or none */
+	const char *scheme;                  /* name of the scheme that built it */
+	int   window;                        /* vertices an item reads: 2 edge, 3 vertex form */
 } Dag;
 
 int  op_operands(int op);
@@ -173,76 +180,80 @@ const char *op_spelling(int op);
 
 Dag *dag_new(const char *scheme);
 Ref  dag_node(Dag *dag, int op, Ref a, Ref b, Ref c);
-Ref  dag_input(Dag *dag, Mono input);               /* a variable or an accumulator */
+Ref  dag_input(Dag *dag, Mono input);        /* a variable or an accumulator */
 Ref  dag_var(Dag *dag, int var);
 Ref  dag_accumulator(Dag *dag, int index);
 Ref  dag_const(Dag *dag, Rat value);
-Ref  dag_add(Dag *dag, Ref a, Ref b);                /* the smart constructors drop 0 and 1; NONE is 0 */
+Ref  dag_add(Dag *dag, Ref a, Ref b);        /* the smart constructors drop 0 and 1; NONE is 0 */
 Ref  dag_sub(Dag *dag, Ref a, Ref b);
 Ref  dag_mul(Dag *dag, Ref a, Ref b);
 Ref  dag_scale(Dag *dag, Rat factor, Ref a);
-Ref  dag_name(Dag *dag, Ref a, const char *name);    /* the first name given stays; returns a */
+Ref  dag_name(Dag *dag, Ref a, const char *name);   /* the first name given stays; returns a */
 void dag_out(Dag *dag, Ref root);
-void dag_accumulate(Dag *dag, Ref value);            /* next accumulator += value */
-int *dag_uses(const Dag *dag);                       /* uses of each node that an output reaches, else 0 */
-Poly dag_expand_node(const Node *node, const Poly *done);   /* its polynomial from those of its operands */
-Poly *dag_expand(const Dag *dag);                    /* polynomial of each node */
-int  dag_reverses(Dag *dag);                         /* swapping the ends negates every output bit for bit */
+void dag_accumulate(Dag *dag, Ref value);    /* next accumulator += value */
+int *dag_uses(const Dag *dag);               /* uses of each node that an output reaches, else 0 */
+/* The polynomial of a node from those of its operands. */
+Poly dag_expand_node(const Node *node, const Poly *done);
+Poly *dag_expand(const Dag *dag);            /* polynomial of each node */
+int  dag_reverses(Dag *dag);                 /* swapped ends negate every output bit for bit */
 void dag_dump(Text *text, const Dag *dag);
 
-/* ---- fuse.c: a b + c -> one rounding; the only file that knows about it ------------------------------- */
+/* ---- fuse.c: a b + c -> one rounding; the only file that knows about it ---------------------- */
 
 Dag *fuse(const Dag *dag);
 
-/* ---- evaluate.c: from a polynomial to operations -------------------------------------------------------- */
+/* ---- evaluate.c: from a polynomial to operations --------------------------------------------- */
 
-typedef struct { Ref ref[VARS]; } Leaves;            /* what stands for each variable of a polynomial */
-extern const int X_VARS[2], Y_VARS[2];               /* the variables of each axis, start and end */
+typedef struct { Ref ref[VARS]; } Leaves;    /* what stands for each variable of a polynomial */
+extern const int X_VARS[2], Y_VARS[2];       /* the variables of each axis, start and end */
 
-Leaves ends(Dag *dag);                               /* every variable stands for itself */
-Ref  cross(Dag *dag);                                /* s = x0 y1 - x1 y0 */
+Leaves ends(Dag *dag);                       /* every variable stands for itself */
+Ref  cross(Dag *dag);                        /* s = x0 y1 - x1 y0 */
 Ref  sum_of(Dag *dag, int start, int end, const char *name);
-Ref  difference_of(Dag *dag, int start, int end, const char *name);             /* end - start */
-Ref  axis_part(Dag *dag, const Leaves *leaves, Mono mono, const int *vars, char axis);   /* axis: letter of names, or 0 */
-Poly group_by(Poly a, const int *vars);              /* terms that share their part in vars next to each other */
+Ref  difference_of(Dag *dag, int start, int end, const char *name);   /* end - start */
+/* axis: the letter of names, or 0 */
+Ref  axis_part(Dag *dag, const Leaves *leaves, Mono mono, const int *vars, char axis);
+Poly group_by(Poly a, const int *vars);      /* terms that share their part in vars side by side */
 Poly next_group(Poly sorted, int *from, const int *vars);
 Ref  grouped(Dag *dag, const Leaves *leaves, Poly density, const int *outer);
 Ref  horner(Dag *dag, Poly a, int var);
 
-/* ---- moments.c: schemes for all moments to a degree ------------------------------------------------------- */
+/* ---- moments.c: schemes for all moments to a degree ------------------------------------------ */
 
-Dag *moments_shared(void);                           /* degree 2 */
-Dag *moments_even_power(int degree);                 /* 0 .. 4 */
-Dag *moments_recurrence(int degree);                 /* 1 and more */
+Dag *moments_shared(void);                   /* degree 2 */
+Dag *moments_even_power(int degree);         /* 0 .. 4 */
+Dag *moments_recurrence(int degree);         /* 1 and more */
 Dag *moments_matrix(const Integral *want, int degree);
 
-/* ---- scheme.c: ways to evaluate, and the choice by cost ------------------------------------------------ */
+/* ---- scheme.c: ways to evaluate, and the choice by cost -------------------------------------- */
 
-typedef struct { int fma, add, mul; } Count;         /* operations: FMA pipe (mul included), adder; mul alone */
+typedef struct { int fma, add, mul; } Count; /* FMA pipe (mul included), adder; mul alone */
 
 int  dag_cost(const Dag *dag);
-Dag *scheme_edge(const Integral *want);              /* one edge by the coefficient matrix, ends interchangeable */
-Dag *scheme_ring(const Integral *want, int moments); /* accumulators of a ring: the cheapest that applies */
-Dag *scheme_finish(const Dag *ring);                 /* accumulator sums -> moments */
-const char *const *scheme_names(void);               /* ends with NULL */
+Dag *scheme_edge(const Integral *want);      /* one edge by the matrix, ends interchangeable */
+/* Accumulators of a ring: the cheapest that applies. */
+Dag *scheme_ring(const Integral *want, int moments);
+Dag *scheme_finish(const Dag *ring);         /* accumulator sums -> moments */
+const char *const *scheme_names(void);       /* ends with NULL */
 
-/* ---- schedule.c: order and live ranges ------------------------------------------------------------------ */
+/* ---- schedule.c: order and live ranges ------------------------------------------------------- */
 
 typedef struct {
 	const Dag *dag;
-	Ref  *order; int count;                      /* operations in the order of evaluation, inputs left out */
-	int  *last;                                  /* position of the last use of each node */
-	int   live;                                  /* most values alive at once, accumulators left out */
-	int   depth;                                 /* longest chain of operations */
+	Ref  *order; int count;              /* operations as evaluated, inputs left out */
+	int  *last;                          /* position of the last use of each node */
+	int   live;                          /* most values alive at once, accumulators left out */
+	int   depth;                         /* longest chain of operations */
 	Count cost;
 } Program;
 
 Program schedule(const Dag *dag);
 void program_dump(Text *text, const Program *program);
 
-/* ---- proof.c: the always-on checks and the error bound ------------------------------------------------- */
+/* ---- proof.c: the always-on checks and the error bound --------------------------------------- */
 
-typedef struct { int k; int repeat; } Bound;         /* error <= gamma_k W; repeat: roundings per further item */
+/* error <= gamma_k W; repeat: roundings per further item */
+typedef struct { int k; int repeat; } Bound;
 
 void   prove_dag(const Dag *dag, const Integral *want, int count, const char *pass);
 void   prove_program(const Program *program, const Integral *want, int count);
@@ -250,23 +261,23 @@ void   prove_finish(const Program *finish, const Dag *ring);
 Bound  bound_edge(const Dag *dag, const Integral *want);
 Bound *bound_ring(const Dag *dag, const Integral *want, int count);   /* one per output */
 
-/* ---- kernel.c: the list of kernels of a request, built and proven --------------------------------------- */
+/* ---- kernel.c: the list of kernels of a request, built and proven ---------------------------- */
 
-typedef struct {                                     /* one single-edge function */
+typedef struct {                             /* one single-edge function */
 	const Integrand *what;
 	Integral integral;
-	Program  program;                            /* portable: reversal must negate it bit for bit */
+	Program  program;                    /* portable: reversal must negate it bit for bit */
 	Bound    bound;
 } Edge;
 
-typedef struct {                                     /* one family member that runs over rings */
-	const char *name;                            /* moments_8, x4y2, soft */
-	const char *family;                          /* moments, monomial, polynomial */
-	int m, n;                                    /* degree 0 of a family, exponents of a monomial, -1 -1 */
+typedef struct {                             /* one family member that runs over rings */
+	const char *name;                    /* moments_8, x4y2, soft */
+	const char *family;                  /* moments, monomial, polynomial */
+	int m, n;                            /* degree 0 of a family, exponents, -1 -1 */
 	int outputs, accumulators, window;
 	const char *scheme;
 	Program portable, fused, finish;
-	Bound *bound;                                /* per output, of the portable program (fma rounds less) */
+	Bound *bound;                        /* per output, of the portable program */
 	Bound  worst;
 } Ring;
 
@@ -274,19 +285,20 @@ typedef struct { Edge *edge; int edges; Ring *ring; int rings; } Kernels;
 
 /* `letters` choose what is dumped into `text`: p polynomials, d dag, f fused, s schedule. */
 Edge build_edge(const Integrand *what);
-Kernels build_kernels(const Request *request, void (*progress)(int done, int of), const char *letters, Text *text);
+Kernels build_kernels(const Request *request, void (*progress)(int done, int of),
+	const char *letters, Text *text);
 
-/* ---- emit*.c: kernels -> C -------------------------------------------------------------------------------- */
+/* ---- emit*.c: kernels -> C ------------------------------------------------------------------- */
 
 typedef struct { const char *name; Text text; } File;
 typedef struct { File *file; int count; } Files;
 
-typedef struct {                                     /* one row per target */
-	const char *name;                            /* suffix of its kernels */
+typedef struct {                             /* one row per target */
+	const char *name;                    /* suffix of its kernels */
 	unsigned bit;
-	int fused;                                   /* runs the fused program */
-	const char *guard;                           /* macro that is 1 where the compiler can build it, or NULL */
-	const char *attribute;                       /* macro before each kernel, or NULL */
+	int fused;                           /* runs the fused program */
+	const char *guard;                   /* macro that is 1 if the compiler can, or NULL */
+	const char *attribute;               /* macro before each kernel, or NULL */
 	const char *about;
 } Target;
 extern const Target targets[];
@@ -296,44 +308,47 @@ typedef struct { const char *real, *suffix, *unit; int is_float, lanes; unsigned
 extern const Precision precisions[];
 extern const int precision_count;
 
-typedef struct {                                     /* how a program is written */
+typedef struct {                             /* how a program is written */
 	const Precision *precision;
 	int nested, indent;
-	const char *accumulator, *output;            /* patterns: "acc%d", "acc%d = " */
+	const char *accumulator, *output;    /* patterns: "acc%d", "acc%d = " */
 } Style;
 
 Text *file_new(Files *files, const char *name);
 void emit_banner(Text *text, const char *name, const char *purpose, const Request *request);
 void emit_wrapped(Text *text, const char *start, const char *margin, const char *words);
-void emit_statement(Text *text, int indent, const char *statement);   /* broken at operators if too wide */
+/* Broken at operators if it is too wide. */
+void emit_statement(Text *text, int indent, const char *statement);
 void emit_program(Text *text, const Program *program, const Style *style);
 
-void emit_edge(Text *text, const Edge *edge, const Precision *precision);        /* one ew_line_NAME with its comment */
+/* One ew_line_NAME with its comment, and the files of all. */
+void emit_edge(Text *text, const Edge *edge, const Precision *precision);
 void emit_edges(Files *files, const Request *request, const Kernels *kernels);
-void emit_show(Text *text, const Integrand *monomial, const char *format_name);  /* --show */
+void emit_show(Text *text, const Integrand *monomial, const char *format_name);   /* --show */
 void emit_rings(Files *files, const Request *request, const Kernels *kernels);
-void emit_list(Files *files, const Request *request, const Kernels *kernels);    /* edgewise_kernels.h */
-void emit_header(Files *files, const Request *request, const Kernels *kernels);  /* edgewise.h */
-void emit_manifest(Text *text, const Request *request, const Kernels *kernels);  /* JSON, all but the files */
+/* edgewise_kernels.h, edgewise.h, and the manifest (JSON, all but the files). */
+void emit_list(Files *files, const Request *request, const Kernels *kernels);
+void emit_header(Files *files, const Request *request, const Kernels *kernels);
+void emit_manifest(Text *text, const Request *request, const Kernels *kernels);
 
-/* ---- bundle.c: from emitted files to what the user gets: runtime, prefix, single header, manifest ---------- */
+/* ---- bundle.c: what the user gets: runtime, prefix, single header, manifest ------------------ */
 
 typedef struct { const char *name, *text; size_t size; } Embedded;
-extern const Embedded embedded_runtime[];            /* built from runtime/ by embed.c; ends with a NULL name */
+extern const Embedded embedded_runtime[];    /* runtime/, by embed.c; ends with a NULL name */
 
 void bundle_runtime(Files *files);
 void bundle_rename(Files *files, const char *prefix);
-char *bundle_name(const char *name, const char *prefix);        /* edgewise_x.c under this prefix */
+char *bundle_name(const char *name, const char *prefix);   /* edgewise_x.c under this prefix */
 Text bundle_manifest(const Files *files, const Request *request, const Kernels *kernels);
 Text bundle_single_header(const Files *files, const Request *request);
 Text bundle_depfile(const Files *outputs);
 
-/* ---- deliver.c: the only file that writes to disk ------------------------------------------------------------ */
+/* ---- deliver.c: the only file that writes to disk -------------------------------------------- */
 
 typedef struct { const char *out, *manifest; int check, dry_run, verbose, quiet; } Delivery;
 
-/* `folder` goes to directory out (NULL: no directory) under a manifest that names what gen wrote there; `single` are
- * paths of their own. Returns the exit status. */
+/* `folder` goes to directory out (NULL: no directory) under a manifest that names what gen wrote
+ * there; `single` are paths of their own. Returns the exit status. */
 int deliver(const Files *folder, const Files *single, const Delivery *how);
 
 #endif

@@ -2,17 +2,21 @@
  *
  * For a monomial, div((x,y) x^m y^n) = (m+n+2) x^m y^n, hence over any closed boundary
  *
- *     integral of x^m y^n dA = 1/(m+n+2) * sum over edges of  integral of x^m y^n (x dy - y dx)      (form 3)
+ *     integral of x^m y^n dA =
+ *             1/(m+n+2) * sum over edges of  integral of x^m y^n (x dy - y dx)      (form 3)
  *
- * A line edge is x = s x0 + t x1, y = s y0 + t y1 with s = 1 - t, so that x dy - y dx = (x0 y1 - x1 y0) dt, and
- * every power product of s and t integrates to  int_0^1 s^a t^b dt = 1 / ((a+b+1) C(a+b, b)). Keeping s and t as
- * separate variables keeps every coefficient positive and small. Form 3 is used for every integrand, so that
- * edges of different kinds may be mixed in one boundary. */
+ * A line edge is x = s x0 + t x1, y = s y0 + t y1 with s = 1 - t, so that
+ * x dy - y dx = (x0 y1 - x1 y0) dt, and every power product of s and t integrates to
+ * int_0^1 s^a t^b dt = 1 / ((a+b+1) C(a+b, b)). Keeping s and t as separate variables keeps every
+ * coefficient positive and small. Form 3 is used for every integrand, so that edges of different
+ * kinds may be mixed in one boundary. */
 #include "gen.h"
 
 Poly green_cross(void)
 {
-	return poly_sub(poly_mul(poly_var(VAR_X0), poly_var(VAR_Y1)), poly_mul(poly_var(VAR_X1), poly_var(VAR_Y0)));
+	Poly left = poly_mul(poly_var(VAR_X0), poly_var(VAR_Y1));
+	Poly right = poly_mul(poly_var(VAR_X1), poly_var(VAR_Y0));
+	return poly_sub(left, right);
 }
 
 /* Integral over 0..1 of a polynomial in s and t. */
@@ -30,7 +34,8 @@ static Poly integrate(Poly a)
 
 static Poly along(int start, int end)
 {
-	return poly_add(poly_mul(poly_var(VAR_S), poly_var(start)), poly_mul(poly_var(VAR_T), poly_var(end)));
+	return poly_add(poly_mul(poly_var(VAR_S), poly_var(start)),
+		poly_mul(poly_var(VAR_T), poly_var(end)));
 }
 
 /* 1/(m+n+2) int x^m y^n dt along the line, for every term of the integrand. */

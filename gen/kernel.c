@@ -1,10 +1,13 @@
-/* kernel.c - the list of kernels of a request, each built, proven and bounded; the pipeline in two short functions.
+/* kernel.c - the list of kernels of a request, each built, proven and bounded;
+ * the pipeline in two short functions.
  *
- * Precisions share a program: only constants and the name of the type differ. Targets without FMA run the portable
- * program, the others the fused one. The finish program of a ring is the same for all. */
+ * Precisions share a program: only constants and the name of the type differ. Targets without FMA
+ * run the portable program, the others the fused one. The finish program of a ring is the same
+ * for all. */
 #include "gen.h"
 
-typedef struct { const char *letters; Text *text; } Dump;   /* p polynomials, d dag, f fused, s schedule */
+/* p polynomials, d dag, f fused, s schedule */
+typedef struct { const char *letters; Text *text; } Dump;
 
 static int wants(const Dump *dump, char letter)
 {
@@ -19,14 +22,16 @@ static void dump_polynomials(const Dump *dump, const char *name, const Integral 
 	if (!wants(dump, 'p'))
 		return;
 	for (int j = 0; j < count; ++j)
-		text_add(dump->text, "%s: polynomial %d\n  %s\n", name, j, poly_text(want[j].value, " "));
+		text_add(dump->text, "%s: polynomial %d\n  %s\n", name, j,
+			poly_text(want[j].value, " "));
 }
 
 static void dump_dag(const Dump *dump, char letter, const char *name, const Dag *dag)
 {
 	if (!wants(dump, letter))
 		return;
-	text_add(dump->text, "%s: %s, scheme %s\n", name, letter == 'd' ? "dag" : "fused", dag->scheme);
+	text_add(dump->text, "%s: %s, scheme %s\n", name, letter == 'd' ? "dag" : "fused",
+		dag->scheme);
 	dag_dump(dump->text, dag);
 	for (int j = 0; j < dag->finishes; ++j)
 		text_add(dump->text, "  finish %d = %s\n", j, poly_text(dag->finish[j], " "));
@@ -92,7 +97,8 @@ static void build_ring(Ring *ring, const Integral *want, int moments, const Dump
 	ring->scheme = dag->scheme;
 }
 
-static Ring *next_ring(Kernels *kernels, const char *name, const char *family, int m, int n, int outputs)
+static Ring *next_ring(Kernels *kernels, const char *name, const char *family, int m, int n,
+	int outputs)
 {
 	Ring *ring = &kernels->ring[kernels->rings++];
 	*ring = (Ring){ .name = name, .family = family, .m = m, .n = n, .outputs = outputs };
@@ -104,10 +110,12 @@ static void build_integrand(Kernels *all, const Integrand *what, const Dump *dum
 	Edge edge = dumped_edge(what, dump);
 	all->edge[all->edges++] = edge;
 	const char *family = what->m < 0 ? "polynomial" : "monomial";
-	build_ring(next_ring(all, what->name, family, what->m, what->n, 1), &edge.integral, -1, dump);
+	Ring *ring = next_ring(all, what->name, family, what->m, what->n, 1);
+	build_ring(ring, &edge.integral, -1, dump);
 }
 
-/* Moments come in the order of EW_INDEX, so those of a lower degree are the first of those of a higher one. */
+/* Moments come in the order of EW_INDEX,
+ * so those of a lower degree are the first of those of a higher one. */
 static Integral *all_integrals(const Request *request)
 {
 	int count = (request->moments + 1) * (request->moments + 2) / 2;
@@ -117,16 +125,20 @@ static Integral *all_integrals(const Request *request)
 	return want;
 }
 
-Kernels build_kernels(const Request *request, void (*progress)(int done, int of), const char *letters, Text *text)
+Kernels build_kernels(const Request *request, void (*progress)(int done, int of),
+	const char *letters, Text *text)
 {
 	const Dump dump = { letters, text };
 	int edges = request->monomials + request->polynomials, rings = edges + request->moments + 1;
-	Kernels all = { allocate((size_t)edges * sizeof(Edge)), 0, allocate((size_t)rings * sizeof(Ring)), 0 };
+	Kernels all = {
+		allocate((size_t)edges * sizeof(Edge)), 0, allocate((size_t)rings * sizeof(Ring)), 0
+	};
 	const Integral *want = all_integrals(request);
 	for (int degree = 0; degree <= request->moments; ++degree) {
 		progress(all.rings, rings);
 		int outputs = (degree + 1) * (degree + 2) / 2;
-		Ring *ring = next_ring(&all, format("moments_%d", degree), "moments", degree, 0, outputs);
+		Ring *ring = next_ring(&all, format("moments_%d", degree), "moments", degree, 0,
+			outputs);
 		build_ring(ring, want, degree, &dump);
 	}
 	for (int i = 0; i < edges; ++i) {

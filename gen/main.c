@@ -10,7 +10,7 @@ typedef struct {
 	Request request;
 	Delivery delivery;
 	const char *single_header, *manifest, *depfile, *show, *format, *dump;
-	const char *emission, *writing;              /* an option given that only makes sense for an emission; that writes */
+	const char *emission, *writing;   /* an option given that is for an emission; that writes */
 	unsigned seen;                               /* bits of the grammar options given */
 	int families, runtime, list;
 } Options;
@@ -22,33 +22,41 @@ static const char *const TARGETS[] = { "portable", "fma" };
 static const char USAGE[] =
 	"usage: gen [OPTION]...\n"
 	"\n"
-	"Emits C code for exact integrals over regions, as sums over the edges of their boundaries.\n"
+	"Emits C code for exact integrals over regions, as sums over the edges of their "
+	"boundaries.\n"
 	"\n"
 	"what to emit (nothing asked: the library with all moments to degree 4)\n"
 	"  --max-degree N         the library with all moments x^m y^n, m + n <= N (0..32)\n"
 	"  --families LIST        only these: moments\n"
 	"  --monomial xMyN        one monomial (repeatable)\n"
-	"  --polynomial NAME=EXPR a polynomial in x and y, such as soft='(1-x)*(1-y)' (repeatable)\n"
+	"  --polynomial NAME=EXPR a polynomial in x and y, such as soft='(1-x)*(1-y)' "
+	"(repeatable)\n"
 	"  --precision LIST       double,float (default: both)\n"
 	"  --targets LIST         portable,fma (default: both; portable is always there)\n"
-	"  --prefix NAME          every symbol, macro and file name starts with NAME instead of ew, edgewise\n"
+	"  --prefix NAME          every symbol, macro and file name starts with NAME instead of "
+	"ew, edgewise\n"
 	"where to\n"
-	"  --out DIR              folder to write, self-contained, `cc -c *.c` is enough (default: generated)\n"
+	"  --out DIR              folder to write, self-contained, `cc -c *.c` is enough "
+	"(default: generated)\n"
 	"  --no-runtime           kernels and header only\n"
 	"  --single-header FILE   one file, stb style, instead of a folder\n"
-	"  --manifest FILE        machine-readable list of kernels, operation counts and error bounds (JSON)\n"
+	"  --manifest FILE        machine-readable list of kernels, operation counts and error "
+	"bounds (JSON)\n"
 	"  --depfile FILE         make-style dependencies, for CMake, Ninja and Meson\n"
-	"  --check                write nothing; exit 1 and a list if DIR differs from what would be written\n"
+	"  --check                write nothing; exit 1 and a list if DIR differs from what would "
+	"be written\n"
 	"  --dry-run              write nothing; list what would be written\n"
 	"other\n"
 	"  --show xMyN            the coefficient matrix of a monomial\n"
 	"  --format FORMAT        of --show: text, latex, json or c (default: text)\n"
-	"  -d LETTERS             dump after passes: p polynomials, d dag, f fused, s schedule; nothing is written\n"
+	"  -d LETTERS             dump after passes: p polynomials, d dag, f fused, s schedule; "
+	"nothing is written\n"
 	"  --list                 families, targets, precisions and schemes\n"
 	"  --quiet, --verbose     say nothing, or name every file\n"
 	"  --help, --version\n"
 	"\n"
-	"Exit status: 0 done, 1 --check found a difference or output could not be written, 2 bad input.\n";
+	"Exit status: 0 done, 1 --check found a difference or output could not be written, "
+	"2 bad input.\n";
 
 /* ---- options ---- */
 
@@ -93,8 +101,9 @@ static int read_text(Options *o, const char *option, const char *value)
 {
 	const struct { const char *name; const char **place; int emits; } texts[] = {
 		{ "--out", &o->delivery.out, 1 }, { "--single-header", &o->single_header, 1 },
-		{ "--manifest", &o->manifest, 1 }, { "--depfile", &o->depfile, 1 }, { "--prefix", &o->request.prefix, 1 },
-		{ "--show", &o->show, 0 }, { "--format", &o->format, 0 }, { "-d", &o->dump, 0 },
+		{ "--manifest", &o->manifest, 1 }, { "--depfile", &o->depfile, 1 },
+		{ "--prefix", &o->request.prefix, 1 }, { "--show", &o->show, 0 },
+		{ "--format", &o->format, 0 }, { "-d", &o->dump, 0 },
 	};
 	for (int i = 0; i < LENGTH(texts); ++i)
 		if (strcmp(option, texts[i].name) == 0) {
@@ -112,8 +121,8 @@ static int read_text(Options *o, const char *option, const char *value)
 /* Options with a grammar; with `value` NULL it only says whether the option is one of them. */
 static int read_request(Options *o, const char *option, const char *value)
 {
-	static const char *const names[] = { "--max-degree", "--families", "--monomial", "--polynomial", "--precision",
-		"--targets" };
+	static const char *const names[] = { "--max-degree", "--families", "--monomial",
+		"--polynomial", "--precision", "--targets" };
 	Request *request = &o->request;
 	int which = 0;
 	while (which < LENGTH(names) && strcmp(option, names[which]) != 0)
@@ -128,12 +137,25 @@ static int read_request(Options *o, const char *option, const char *value)
 		fatal(EXIT_USAGE, "%s is given twice", option);
 	o->seen |= 1u << which;
 	switch (which) {
-	case 0: request->moments = spec_degree(value); break;
-	case 1: spec_list(option, value, FAMILIES, LENGTH(FAMILIES)); o->families = 1; break;
-	case 2: add_integrand(&request->monomial, &request->monomials, spec_monomial(value)); break;
-	case 3: add_integrand(&request->polynomial, &request->polynomials, spec_polynomial(value)); break;
-	case 4: request->precisions = spec_list(option, value, PRECISIONS, LENGTH(PRECISIONS)); break;
-	case 5: request->targets = spec_list(option, value, TARGETS, LENGTH(TARGETS)); break;
+	case 0:
+		request->moments = spec_degree(value);
+		break;
+	case 1:
+		spec_list(option, value, FAMILIES, LENGTH(FAMILIES));
+		o->families = 1;
+		break;
+	case 2:
+		add_integrand(&request->monomial, &request->monomials, spec_monomial(value));
+		break;
+	case 3:
+		add_integrand(&request->polynomial, &request->polynomials, spec_polynomial(value));
+		break;
+	case 4:
+		request->precisions = spec_list(option, value, PRECISIONS, LENGTH(PRECISIONS));
+		break;
+	case 5:
+		request->targets = spec_list(option, value, TARGETS, LENGTH(TARGETS));
+		break;
 	}
 	return 1;
 }
@@ -151,10 +173,13 @@ static Options read_options(char **argv)
 	Options o = { .request = { .moments = -1, .precisions = PRECISION_DOUBLE | PRECISION_FLOAT,
 		.targets = TARGET_PORTABLE | TARGET_FMA }, .runtime = 1 };
 	while (*++argv) {
-		const char *option = *argv, *equals = strncmp(option, "--", 2) == 0 ? strchr(option, '=') : NULL;
+		const char *option = *argv, *equals = NULL;
+		if (strncmp(option, "--", 2) == 0)
+			equals = strchr(option, '=');
 		if (equals)
 			option = copy_string(option, (size_t)(equals - option));
-		int help = strcmp(option, "--help") == 0, version = strcmp(option, "--version") == 0;
+		int help = strcmp(option, "--help") == 0;
+		int version = strcmp(option, "--version") == 0;
 		int is_switch = read_switch(&o, option);
 		if ((is_switch || help || version) && equals)
 			fatal(EXIT_USAGE, "%s takes no value", option);
@@ -176,7 +201,8 @@ static Options read_options(char **argv)
 static void check_options(const Options *o)
 {
 	if ((o->show || o->list) && o->emission)
-		fatal(EXIT_USAGE, "%s emits nothing; leave out %s", o->show ? "--show" : "--list", o->emission);
+		fatal(EXIT_USAGE, "%s emits nothing; leave out %s", o->show ? "--show" : "--list",
+			o->emission);
 	if (o->show && o->list)
 		fatal(EXIT_USAGE, "--show and --list exclude each other");
 	if (o->dump && (o->writing || o->show || o->list))
@@ -185,8 +211,8 @@ static void check_options(const Options *o)
 	if (o->format && !o->show)
 		fatal(EXIT_USAGE, "--format goes with --show");
 	if (o->single_header && (!o->runtime || o->delivery.out))
-		fatal(EXIT_USAGE, "--single-header writes one file with the runtime in it; leave out %s",
-			o->runtime ? "--out" : "--no-runtime");
+		fatal(EXIT_USAGE, "--single-header writes one file with the runtime in it; "
+			"leave out %s", o->runtime ? "--out" : "--no-runtime");
 	if (o->delivery.quiet && o->delivery.verbose)
 		fatal(EXIT_USAGE, "--quiet and --verbose exclude each other");
 	if (o->delivery.check && o->delivery.dry_run)
@@ -249,7 +275,8 @@ static int emit(const Options *o)
 	const Request *request = &o->request;
 	Text dump = { 0 };
 	int quiet = o->delivery.quiet || !isatty(STDERR_FILENO);
-	Kernels kernels = build_kernels(request, quiet ? no_progress : show_progress, o->dump, &dump);
+	Kernels kernels = build_kernels(request, quiet ? no_progress : show_progress, o->dump,
+		&dump);
 	if (o->dump) {
 		print_text(&dump);
 		return EXIT_DONE;

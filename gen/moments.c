@@ -1,10 +1,12 @@
-/* moments.c - schemes for all moments to a degree at once: per item a few products go to accumulators, and rational
- * constants that all items share are applied once at the end, in the finish forms.
+/* moments.c - schemes for all moments to a degree at once: per item a few products go
+ * to accumulators, and rational constants that all items share are applied once at the end,
+ * in the finish forms.
  *
  *   shared      degree 2 with the products x0 y1, x1 y0 and the sums p0 + p1 used again
- *   even-power  in a = p0 + p1 and e = p1 - p0 only terms even in e survive the integration; to degree 4
- *   recurrence  h_mn = x0 h_(m-1,n) + y0 h_(m,n-1) + C(m+n,n) x1^m y1^n, times x0 y1 - x1 y0 from the start;
- *               the generating function of h is 1 / ((1 - x0 u - y0 v)(1 - x1 u - y1 v))
+ *   even-power  in a = p0 + p1 and e = p1 - p0 only terms even in e survive the integration;
+ *               to degree 4
+ *   recurrence  h_mn = x0 h_(m-1,n) + y0 h_(m,n-1) + C(m+n,n) x1^m y1^n, times x0 y1 - x1 y0 from
+ *               the start; the generating function of h is 1 / ((1 - x0 u - y0 v)(1 - x1 u - y1 v))
  *   matrix      every moment by its own coefficient matrix, power products shared
  *
  * None of these identities is trusted: proof.c expands what was built. */
@@ -28,19 +30,28 @@ static void finish_next(Dag *dag, int m, int n, Rat factor)
 	*form = poly_add(*form, poly_mono(factor, mono_accumulator(dag->outs)));
 }
 
-/* Degree 2 with six accumulators: x0 (x0 + x1) + x1^2 and 2 (x0 + x1)(y0 + y1) - (x0 y1 + x1 y0). */
+/* Degree 2 with six accumulators:
+ * x0 (x0 + x1) + x1^2 and 2 (x0 + x1)(y0 + y1) - (x0 y1 + x1 y0). */
 Dag *moments_shared(void)
 {
 	Dag *dag = dag_new("shared");
 	Leaves end = ends(dag);
 	Ref x0 = end.ref[VAR_X0], y0 = end.ref[VAR_Y0], x1 = end.ref[VAR_X1], y1 = end.ref[VAR_Y1];
-	Ref s = cross(dag), a = sum_of(dag, VAR_X0, VAR_X1, "a"), b = sum_of(dag, VAR_Y0, VAR_Y1, "b");
-	Ref x1x1 = dag_mul(dag, x1, x1), y1y1 = dag_mul(dag, y1, y1), x0a = dag_mul(dag, x0, a), y0b = dag_mul(dag, y0, b);
+	Ref s = cross(dag);
+	Ref a = sum_of(dag, VAR_X0, VAR_X1, "a"), b = sum_of(dag, VAR_Y0, VAR_Y1, "b");
+	Ref x1x1 = dag_mul(dag, x1, x1), y1y1 = dag_mul(dag, y1, y1);
+	Ref x0a = dag_mul(dag, x0, a), y0b = dag_mul(dag, y0, b);
 	Ref left = dag_mul(dag, x0, y1), right = dag_mul(dag, x1, y0), twice = dag_add(dag, a, a);
-	Ref xx = dag_add(dag, x1x1, x0a), yy = dag_add(dag, y1y1, y0b), mixed = dag_add(dag, left, right);
+	Ref xx = dag_add(dag, x1x1, x0a), yy = dag_add(dag, y1y1, y0b);
+	Ref mixed = dag_add(dag, left, right);
 	Ref xy = dag_sub(dag, dag_mul(dag, twice, b), mixed);
-	const Ref value[] = { NONE, a, b, dag_name(dag, xx, "xx"), dag_name(dag, xy, "xy"), dag_name(dag, yy, "yy") };
-	const Rat factor[] = { rat(1, 2), rat(1, 6), rat(1, 6), rat(1, 12), rat(1, 24), rat(1, 12) };
+	const Ref value[] = {
+		NONE, a, b,
+		dag_name(dag, xx, "xx"), dag_name(dag, xy, "xy"), dag_name(dag, yy, "yy"),
+	};
+	const Rat factor[] = {
+		rat(1, 2), rat(1, 6), rat(1, 6), rat(1, 12), rat(1, 24), rat(1, 12)
+	};
 	finish_room(dag, 2);
 	for (int i = 0, m = 0, n = 0; i < 6; ++i) {
 		finish_next(dag, m, n, factor[i]);
@@ -56,12 +67,15 @@ Dag *moments_shared(void)
 /* Symmetric pairs xx, xy, yy: which of the two axes each index takes. */
 static const int PAIR[3][2] = { { 0, 0 }, { 0, 1 }, { 1, 1 } };
 
-typedef struct { Ref s, a[2], e[2], ee[3], r[3], q[3], t[3]; } Even;   /* r = a a + e e, q = s e e, t = s r */
+/* r = a a + e e, q = s e e, t = s r */
+typedef struct { Ref s, a[2], e[2], ee[3], r[3], q[3], t[3]; } Even;
 
 static Even even_parts(Dag *dag, int degree)
 {
-	static const char *const ee[] = { "ee", "ef", "ff" }, *const r[] = { "rxx", "rxy", "ryy" };
-	static const char *const q[] = { "qxx", "qxy", "qyy" }, *const t[] = { "txx", "txy", "tyy" };
+	static const char *const ee[] = { "ee", "ef", "ff" };
+	static const char *const r[] = { "rxx", "rxy", "ryy" };
+	static const char *const q[] = { "qxx", "qxy", "qyy" };
+	static const char *const t[] = { "txx", "txy", "tyy" };
 	Even even = { .s = cross(dag) };
 	even.a[0] = sum_of(dag, VAR_X0, VAR_X1, "a");
 	even.a[1] = sum_of(dag, VAR_Y0, VAR_Y1, "b");
@@ -70,13 +84,16 @@ static Even even_parts(Dag *dag, int degree)
 	even.e[0] = difference_of(dag, VAR_X0, VAR_X1, "e");
 	even.e[1] = difference_of(dag, VAR_Y0, VAR_Y1, "f");
 	for (int i = 0; i < 3; ++i) {
-		Ref a0 = even.a[PAIR[i][0]], a1 = even.a[PAIR[i][1]], e0 = even.e[PAIR[i][0]], e1 = even.e[PAIR[i][1]];
-		if (degree < 4) {                  /* s goes in first: r and ee themselves are not needed */
+		Ref a0 = even.a[PAIR[i][0]], a1 = even.a[PAIR[i][1]];
+		Ref e0 = even.e[PAIR[i][0]], e1 = even.e[PAIR[i][1]];
+		if (degree < 4) {          /* s goes in first: r and ee themselves are not needed */
 			even.q[i] = dag_mul(dag, dag_mul(dag, even.s, e0), e1);
-			even.t[i] = dag_add(dag, even.q[i], dag_mul(dag, dag_mul(dag, even.s, a0), a1));
+			Ref saa = dag_mul(dag, dag_mul(dag, even.s, a0), a1);
+			even.t[i] = dag_add(dag, even.q[i], saa);
 		} else {
 			even.ee[i] = dag_name(dag, dag_mul(dag, e0, e1), ee[i]);
-			even.r[i] = dag_name(dag, dag_add(dag, even.ee[i], dag_mul(dag, a0, a1)), r[i]);
+			even.r[i] = dag_add(dag, even.ee[i], dag_mul(dag, a0, a1));
+			dag_name(dag, even.r[i], r[i]);
 			even.q[i] = dag_mul(dag, even.s, even.ee[i]);
 			even.t[i] = dag_mul(dag, even.s, even.r[i]);
 		}
@@ -144,8 +161,12 @@ static Rat moment_factor(int m, int n)
 	return rat(1, int_mul((m + n + 2) * (m + n + 1), int_binomial(m + n, n)));
 }
 
-typedef struct { Dag *dag; int degree; Leaves end; Ref h[MAX_DEGREE + 1][MAX_DEGREE + 1], w[MAX_DEGREE + 1][MAX_DEGREE + 1]; }
-	Recurrence;
+typedef struct {
+	Dag *dag;
+	int degree;
+	Leaves end;
+	Ref h[MAX_DEGREE + 1][MAX_DEGREE + 1], w[MAX_DEGREE + 1][MAX_DEGREE + 1];
+} Recurrence;
 
 /* w_mn = s x1^m y1^n from its neighbour, as the two factors of its last product. */
 static void weight_factors(const Recurrence *r, int m, int n, Ref *factor, Ref *end)
@@ -174,7 +195,8 @@ static void recurrence_inner(Recurrence *r, int m, int n)
 	dag_accumulate(r->dag, r->h[m][n]);
 }
 
-/* Top degree: straight into the accumulator; the source, times its binomial, comes from one of its own. */
+/* Top degree: straight into the accumulator;
+ * the source, times its binomial, comes from one of its own. */
 static void recurrence_top(Recurrence *r, int m, int n)
 {
 	Ref factor, end, sum = dag_accumulator(r->dag, r->dag->outs);

@@ -1,9 +1,10 @@
 /* polynomial.c - sparse polynomials over Q.
  *
- * A monomial is one 128-bit word: a byte of exponent per variable, the first variable on top, and above them the
- * number of an accumulator plus one (accumulators occur linearly only). Multiplying monomials is adding words, and
- * comparing words orders terms. A Poly is an immutable array of terms in strictly descending order without zero
- * coefficients, so equal polynomials are equal arrays. */
+ * A monomial is one 128-bit word: a byte of exponent per variable, the first variable on top,
+ * and above them the number of an accumulator plus one (accumulators occur linearly only).
+ * Multiplying monomials is adding words, and comparing words orders terms. A Poly is
+ * an immutable array of terms in strictly descending order without zero coefficients, so equal
+ * polynomials are equal arrays. */
 #include "gen.h"
 
 #include <stdlib.h>
@@ -13,8 +14,9 @@ enum { BITS = 8, ACCUMULATOR = BITS * VARS };
 
 const char *var_name(int var)
 {
-	static const char *const names[VARS] = { "x", "y", "x0", "y0", "x1", "y1", "x2", "y2", "x3", "y3",
-		"cx", "s", "t" };
+	static const char *const names[VARS] = {
+		"x", "y", "x0", "y0", "x1", "y1", "x2", "y2", "x3", "y3", "cx", "s", "t"
+	};
 	return names[var];
 }
 
@@ -201,7 +203,8 @@ static void collect_raw(Text *terms)
 			(int)(terms->size / sizeof(Term))).count;
 }
 
-/* Intermediate polynomials are freed term by term, and like terms merged now and then: they are many and large. */
+/* Intermediate polynomials are freed term by term, and like terms merged now and then:
+ * they are many and large. */
 Poly poly_substitute(Poly a, const int *vars, const Poly *by, int count)
 {
 	Text terms = { 0 };
@@ -210,7 +213,8 @@ Poly poly_substitute(Poly a, const int *vars, const Poly *by, int count)
 		Mark mark = arena_mark();
 		Poly product = substitute_term(a.term[i], vars, by, count);
 		if (product.count)
-			text_append(&terms, (const char *)product.term, (size_t)product.count * sizeof(Term));
+			text_append(&terms, (const char *)product.term,
+				(size_t)product.count * sizeof(Term));
 		arena_release(mark);
 		if (terms.size > limit) {
 			collect_raw(&terms);
@@ -265,7 +269,8 @@ static void mono_text(Text *text, Mono mono, const char *times, int first)
 		int power = mono_power(mono, var);
 		if (!power)
 			continue;
-		text_add(text, power > 1 ? "%s%s^%d" : "%s%s", first ? "" : times, var_name(var), power);
+		text_add(text, power > 1 ? "%s%s^%d" : "%s%s", first ? "" : times, var_name(var),
+			power);
 		first = 0;
 	}
 }

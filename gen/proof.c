@@ -1,15 +1,17 @@
 /* proof.c - the always-on checks, and the error bound.
  *
- * After scheme, after fuse and after schedule every output is expanded back into a polynomial over Q and compared
- * with what green.c says. A difference is a bug of ours: abort before any file is written. For rings the identity is
- * checked through the accumulators: output k must be accumulator k plus some polynomial v_k, and the finish forms
- * applied to v must give each moment of one edge. The vertex form differs from the edge form by terms that cancel
- * around any ring; the proof exhibits them: D(p0,p1,p2) = G(p1,p2) - G(p0,p1) with G read off D itself.
+ * After scheme, after fuse and after schedule every output is expanded back into a polynomial over
+ * Q and compared with what green.c says. A difference is a bug of ours: abort before any file is
+ * written. For rings the identity is checked through the accumulators: output k must be accumulator
+ * k plus some polynomial v_k, and the finish forms applied to v must give each moment of one edge.
+ * The vertex form differs from the edge form by terms that cancel around any ring;
+ * the proof exhibits them: D(p0,p1,p2) = G(p1,p2) - G(p0,p1) with G read off D itself.
  *
- * The bound counts roundings along every path (numerics of summed products, e.g. Higham 2002, ch. 3): a node is the
- * sum S of its terms with every sign positive, and E, the same terms each times the number of roundings it has been
- * through. With W the positive terms of the exact polynomial, |computed - exact| <= gamma_k W for
- * k = max(E / W over all monomials, longest path). Multiplying by a power of two does not round. */
+ * The bound counts roundings along every path (numerics of summed products, e.g. Higham
+ * 2002, ch. 3): a node is the sum S of its terms with every sign positive, and E, the same terms
+ * each times the number of roundings it has been through. With W the positive terms of the exact
+ * polynomial, |computed - exact| <= gamma_k W for k = max(E / W over all monomials, longest path).
+ * Multiplying by a power of two does not round. */
 #include "gen.h"
 
 static void disprove(const char *pass, int output, Poly have, Poly want)
@@ -37,8 +39,10 @@ static Poly *accumulated(const Poly *poly, const Dag *dag, const char *pass)
 static Poly finished(Poly form, const Poly *value)
 {
 	Poly sum = poly_zero();
-	for (int i = 0; i < form.count; ++i)
-		sum = poly_add(sum, poly_scale(value[mono_accumulator_of(form.term[i].mono)], form.term[i].coef));
+	for (int i = 0; i < form.count; ++i) {
+		Poly part = value[mono_accumulator_of(form.term[i].mono)];
+		sum = poly_add(sum, poly_scale(part, form.term[i].coef));
+	}
 	return sum;
 }
 
@@ -66,7 +70,8 @@ static int telescopes(Poly d)
 	return poly_equal(rest, poly_sub(k, rename_vertices(k, 1, 0)));
 }
 
-static void prove(const Poly *poly, const Dag *dag, const Integral *want, int count, const char *pass)
+static void prove(const Poly *poly, const Dag *dag, const Integral *want, int count,
+	const char *pass)
 {
 	Poly *value = accumulated(poly, dag, pass);
 	if ((dag->finishes ? dag->finishes : dag->outs) != count)
@@ -90,7 +95,8 @@ void prove_dag(const Dag *dag, const Integral *want, int count, const char *pass
 	arena_release(mark);
 }
 
-/* The program is run symbolically: an operand must have been computed, and must not be used after its last use. */
+/* The program is run symbolically: an operand must have been computed,
+ * and must not be used after its last use. */
 void prove_program(const Program *program, const Integral *want, int count)
 {
 	Mark mark = arena_mark();
@@ -130,7 +136,8 @@ void prove_finish(const Program *finish, const Dag *ring)
 
 /* ---- the error bound ---- */
 
-typedef struct { Poly s, e; int depth; } Weight;      /* terms with positive sign; times roundings; longest path */
+/* terms with positive sign; times roundings; longest path */
+typedef struct { Poly s, e; int depth; } Weight;
 
 static Weight rounded(Poly s, Poly e, int depth)
 {
@@ -169,7 +176,8 @@ static Weight weigh(const Dag *dag, const Node *node, const Weight *done, const 
 	Weight a = done[node->arg[0]], b = done[node->arg[1]];
 	if (node->op == OP_MUL) {
 		Weight p = product(a, b);
-		if (is_power_of_two(&dag->node[node->arg[0]]) || is_power_of_two(&dag->node[node->arg[1]]))
+		if (is_power_of_two(&dag->node[node->arg[0]])
+		    || is_power_of_two(&dag->node[node->arg[1]]))
 			return p;
 		return rounded(p.s, p.e, p.depth);
 	}
@@ -177,7 +185,8 @@ static Weight weigh(const Dag *dag, const Node *node, const Weight *done, const 
 		a = product(a, b);
 		b = done[node->arg[2]];
 	}
-	return rounded(poly_add(a.s, b.s), poly_add(a.e, b.e), a.depth > b.depth ? a.depth : b.depth);
+	return rounded(poly_add(a.s, b.s), poly_add(a.e, b.e),
+		a.depth > b.depth ? a.depth : b.depth);
 }
 
 static Weight *weights(const Dag *dag, const Weight *inputs)

@@ -1,16 +1,17 @@
 /* rational.c - exact rationals on checked 128-bit integers.
  *
- * A Rat is always in lowest terms with a positive denominator, so equal values have equal members. Every product
- * and sum is checked: what does not fit stops the program with a clear message, never with a wrong digit.
- * |value| stays below 2^127, so negation is always safe. The nearest double or float (ties to even) is found in
- * integers as well; gen uses no floating point. */
+ * A Rat is always in lowest terms with a positive denominator, so equal values have equal members.
+ * Every product and sum is checked: what does not fit stops the program with a clear message,
+ * never with a wrong digit. |value| stays below 2^127, so negation is always safe. The nearest
+ * double or float (ties to even) is found in integers as well; gen uses no floating point. */
 #include "gen.h"
 
 static const Int LIMIT = (Int)(((Wide)1 << 127) - 1);
 
 static void overflow(void)
 {
-	fatal(EXIT_USAGE, "a number needs more than 128 bits; ask for a lower degree or simpler constants");
+	fatal(EXIT_USAGE, "a number needs more than 128 bits; "
+		"ask for a lower degree or simpler constants");
 }
 
 static Int magnitude(Int a)
@@ -50,7 +51,7 @@ Int int_binomial(int n, int k)
 {
 	Int value = 1;
 	for (int i = 1; i <= k; ++i)
-		value = int_mul(value, n - k + i) / i;   /* exact: a product of i consecutive integers */
+		value = int_mul(value, n - k + i) / i;   /* exact: i consecutive integers */
 	return value;
 }
 
@@ -158,7 +159,7 @@ static Int round_to(int bits, Int num, Int den, int *exponent)
 		++*exponent;
 	}
 	while (num / den < low) {
-		if (num > LIMIT / 2) {             /* keep the quotient: den is then large and even steps lose nothing */
+		if (num > LIMIT / 2) {     /* den is then large and even steps lose nothing */
 			if (den % 2)
 				overflow();
 			den /= 2;
@@ -201,7 +202,7 @@ char *rat_literal(Rat a, int is_float)
 	exponent += bits - 1;
 	digits -= (Int)1 << (bits - 1);
 	if (is_float)
-		digits <<= 1;                      /* 23 bits behind the point to 6 hexadecimal digits */
+		digits <<= 1;              /* 23 bits behind the point to 6 hexadecimal digits */
 	const char *sign = a.num < 0 ? "-" : "";
 	unsigned long long tail = (unsigned long long)digits;
 	char *hex = format(is_float ? "%06llx" : "%013llx", tail);

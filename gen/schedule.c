@@ -1,8 +1,9 @@
 /* schedule.c - a DAG becomes a straight-line program: an order of evaluation with live ranges.
  *
- * Two orders are tried: the order of construction, and depth first from the outputs, the operand that needs more
- * registers first (Sethi and Ullman 1970, exact for trees, a good guess for DAGs). The one with fewer values alive
- * at once is taken. Accumulators are not counted: their place is up to the kernel. */
+ * Two orders are tried: the order of construction, and depth first from the outputs, the operand
+ * that needs more registers first (Sethi and Ullman 1970, exact for trees, a good guess for DAGs).
+ * The one with fewer values alive at once is taken. Accumulators are not counted:
+ * their place is up to the kernel. */
 #include "gen.h"
 
 static int is_operation(const Node *node)
@@ -74,8 +75,10 @@ static void measure(Program *program)
 		if (alive > program->live)
 			program->live = alive;
 		for (int k = 0; k < op_operands(node->op); ++k) {
-			int again = k > 0 && (node->arg[k] == node->arg[0] || (k == 2 && node->arg[2] == node->arg[1]));
-			alive -= !again && lives(&dag->node[node->arg[k]]) && program->last[node->arg[k]] == at;
+			Ref arg = node->arg[k];
+			int again = k > 0
+				&& (arg == node->arg[0] || (k == 2 && arg == node->arg[1]));
+			alive -= !again && lives(&dag->node[arg]) && program->last[arg] == at;
 		}
 		alive -= program->last[ref] == 0;   /* an output goes straight to its accumulator */
 		if (depth[ref] > program->depth)
@@ -110,13 +113,15 @@ void program_dump(Text *text, const Program *program)
 {
 	for (int at = 0; at < program->count; ++at) {
 		const Node *node = &program->dag->node[program->order[at]];
-		text_add(text, "  %3d: %%%u = %s", at, (unsigned)program->order[at], op_name(node->op));
+		text_add(text, "  %3d: %%%u = %s", at, (unsigned)program->order[at],
+			op_name(node->op));
 		for (int k = 0; k < op_operands(node->op); ++k) {
 			int dies = program->last[node->arg[k]] == at;
 			text_add(text, " %%%u%s", (unsigned)node->arg[k], dies ? "'" : "");
 		}
 		text_add(text, node->name ? "  # %s\n" : "\n", node->name);
 	}
-	text_add(text, "  %d operations, FMA pipe %d, adder %d, live %d, depth %d\n", program->count,
-		program->cost.fma, program->cost.add, program->live, program->depth);
+	text_add(text, "  %d operations, FMA pipe %d, adder %d, live %d, depth %d\n",
+		program->count, program->cost.fma, program->cost.add, program->live,
+		program->depth);
 }

@@ -1,13 +1,15 @@
 /* scheme.c - ways to evaluate an integral over edges, and the choice between them.
  *
- * Single edges use the coefficient matrix, with mirrored terms added in pairs, so that swapping the two ends of the
- * edge negates the result bit for bit. Rings add up products in accumulators; several schemes apply to one request,
- * each builds a DAG, and the cheapest one by an integer cost is taken. For all moments they stand in moments.c; for one
- * integrand they are
+ * Single edges use the coefficient matrix, with mirrored terms added in pairs, so that swapping
+ * the two ends of the edge negates the result bit for bit. Rings add up products in accumulators;
+ * several schemes apply to one request, each builds a DAG, and the cheapest one by an integer cost
+ * is taken. For all moments they stand in moments.c; for one integrand they are
  *
- *   matrix      powers of x times an integer matrix times powers of y (Steger 1996), shared products
+ *   matrix      powers of x times an integer matrix times powers of y (Steger 1996),
+ *               shared products
  *   horner      nested multiplication
- *   even-power  the same matrix form in a = p0 + p1 and e = p1 - p0: only terms even in e survive the integration
+ *   even-power  the same matrix form in a = p0 + p1 and e = p1 - p0: only terms even in e survive
+ *               the integration
  *   vertex      constants alone: 1/2 (x_i - cx) (y_(i+1) - y_(i-1)), one product per vertex */
 #include "gen.h"
 
@@ -16,7 +18,9 @@ enum { FEW_TERMS = 24 };                   /* try normalisations of a density up
 
 const char *const *scheme_names(void)
 {
-	static const char *const names[] = { "matrix", "horner", "even-power", "shared", "recurrence", "vertex", NULL };
+	static const char *const names[] = {
+		"matrix", "horner", "even-power", "shared", "recurrence", "vertex", NULL
+	};
 	return names;
 }
 
@@ -43,8 +47,10 @@ int dag_cost(const Dag *dag)
 
 static Mono mirrored(Mono mono)
 {
-	return mono_var(VAR_X0, mono_power(mono, VAR_X1)) + mono_var(VAR_X1, mono_power(mono, VAR_X0))
-		+ mono_var(VAR_Y0, mono_power(mono, VAR_Y1)) + mono_var(VAR_Y1, mono_power(mono, VAR_Y0));
+	return mono_var(VAR_X0, mono_power(mono, VAR_X1))
+		+ mono_var(VAR_X1, mono_power(mono, VAR_X0))
+		+ mono_var(VAR_Y0, mono_power(mono, VAR_Y1))
+		+ mono_var(VAR_Y1, mono_power(mono, VAR_Y0));
 }
 
 static Ref y_term(Dag *dag, const Leaves *end, Term term, int reflect)
@@ -100,7 +106,8 @@ Dag *scheme_edge(const Integral *want)
 	Ref sum = NONE;
 	for (int from = 0; from < density.count; ) {
 		Poly part = next_group(density, &from, X_VARS);
-		Mono x = mono_keep(part.term[0].mono, X_VARS, 2), image = mono_keep(mirrored(x), X_VARS, 2);
+		Mono x = mono_keep(part.term[0].mono, X_VARS, 2);
+		Mono image = mono_keep(mirrored(x), X_VARS, 2);
 		if (x < image)
 			continue;
 		Ref near = x == image ? own_row(dag, &end, part) : row(dag, &end, part, 0);
@@ -108,7 +115,8 @@ Dag *scheme_edge(const Integral *want)
 		Ref term = dag_mul(dag, axis_part(dag, &end, x, X_VARS, 'x'), near);
 		if (x > image) {
 			Ref far = dag_name(dag, row(dag, &end, part, 1), row_name(density, image));
-			term = dag_add(dag, term, dag_mul(dag, axis_part(dag, &end, image, X_VARS, 'x'), far));
+			Ref power = axis_part(dag, &end, image, X_VARS, 'x');
+			term = dag_add(dag, term, dag_mul(dag, power, far));
 		}
 		sum = dag_add(dag, sum, term);
 	}
@@ -167,7 +175,8 @@ static Dag *single(Poly density, int way, Rat unit)
 	if (way == HORNER)
 		value = horner(dag, scaled, VAR_X0);
 	else
-		value = grouped(dag, &leaves, scaled, way == MATRIX_X || way == EVEN_X ? X_VARS : Y_VARS);
+		value = grouped(dag, &leaves, scaled,
+			way == MATRIX_X || way == EVEN_X ? X_VARS : Y_VARS);
 	dag_accumulate(dag, dag_mul(dag, s, value));
 	finish_one(dag, unit);
 	return dag;
@@ -233,7 +242,8 @@ Dag *scheme_ring(const Integral *want, int moments)
 	return best_single(want);
 }
 
-/* out_j = (integer combination of the accumulators) * content, so that integer coordinates stay exact to the end. */
+/* out_j = (integer combination of the accumulators) * content, so that integer
+ * coordinates stay exact to the end. */
 Dag *scheme_finish(const Dag *ring)
 {
 	Dag *dag = dag_new("finish");
@@ -242,8 +252,9 @@ Dag *scheme_finish(const Dag *ring)
 		Poly form = poly_scale(ring->finish[j], rat_div(rat(1, 1), content));
 		Ref sum = NONE;
 		for (int i = form.count - 1; i >= 0; --i) {
-			Ref accumulator = dag_accumulator(dag, mono_accumulator_of(form.term[i].mono));
-			sum = dag_add(dag, sum, dag_scale(dag, form.term[i].coef, accumulator));
+			const Term *term = &form.term[i];
+			Ref accumulator = dag_accumulator(dag, mono_accumulator_of(term->mono));
+			sum = dag_add(dag, sum, dag_scale(dag, term->coef, accumulator));
 		}
 		dag_out(dag, dag_scale(dag, content, sum));
 	}

@@ -2,10 +2,12 @@
  *
  *     monomial    xMyN                                   x4y2
  *     polynomial  NAME=EXPRESSION                        soft=(1-x)*(1-y)
- *     expression  sum of terms: + - * / ^ ( ), x, y, integers and decimals; division by constants only
+ *     expression  sum of terms: + - * / ^ ( ), x, y, integers and decimals;
+ *                 division by constants only
  *
- * Everything is exact. A mistake ends the program with the line, the column and a caret under the spot. Names become
- * parts of C identifiers, so C and C++ keywords and the names of the library's own functions are refused. */
+ * Everything is exact. A mistake ends the program with the line, the column and a caret under
+ * the spot. Names become parts of C identifiers, so C and C++ keywords and the names of the
+ * library's own functions are refused. */
 #include "gen.h"
 
 #include <stdlib.h>
@@ -33,8 +35,8 @@ static char *locate_at(const Reader *reader, size_t at, const char *message)
 	char *margin = copy_string(reader->text + shown, at - shown);
 	for (char *p = margin; *p; ++p)
 		*p = *p == '\t' ? '\t' : ' ';
-	return format("%s: line %d, column %d: %s\n  %.*s\n  %s^", reader->what, line, column, message,
-		(int)(end - shown), reader->text + shown, margin);
+	return format("%s: line %d, column %d: %s\n  %.*s\n  %s^", reader->what, line, column,
+		message, (int)(end - shown), reader->text + shown, margin);
 }
 
 static char *locate(const void *reader, const char *message)
@@ -42,7 +44,8 @@ static char *locate(const void *reader, const char *message)
 	return locate_at(reader, ((const Reader *)reader)->at, message);
 }
 
-static void syntax_error(const Reader *reader, size_t at, const char *message) __attribute__((noreturn));
+static void syntax_error(const Reader *reader, size_t at, const char *message)
+	__attribute__((noreturn));
 static void syntax_error(const Reader *reader, size_t at, const char *message)
 {
 	reading(NULL, NULL);
@@ -69,7 +72,8 @@ static int total_degree(Poly a)
 static void check_degree(const Reader *reader, size_t at, int degree)
 {
 	if (degree > MAX_DEGREE)
-		syntax_error(reader, at, format("the degree becomes %d; at most %d is supported", degree, MAX_DEGREE));
+		syntax_error(reader, at, format("the degree becomes %d; at most %d is supported",
+			degree, MAX_DEGREE));
 }
 
 static int is_digit(int c)
@@ -91,7 +95,8 @@ static Rat read_number(Reader *reader)
 		if (!is_digit(c))
 			break;
 		if (reader->at - start >= MAX_DIGITS)
-			syntax_error(reader, start, format("a number of more than %d digits", MAX_DIGITS));
+			syntax_error(reader, start, format("a number of more than %d digits",
+				MAX_DIGITS));
 		num = 10 * num + (c - '0');
 		den *= point ? 10 : 1;
 	}
@@ -118,14 +123,16 @@ static Poly read_base(Reader *reader)
 	size_t start = reader->at;
 	if (is_digit(c))
 		return poly_const(read_number(reader));
-	size_t letters = strspn(reader->text + start, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_");
+	size_t letters = strspn(reader->text + start,
+		"abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_");
 	if (letters == 1 && (c == 'x' || c == 'y')) {
 		++reader->at;
 		return poly_var(c == 'x' ? VAR_X : VAR_Y);
 	}
 	if (letters)
-		syntax_error(reader, start, format("expected a number, x, y or '(', not the name '%.*s'; products "
-			"need a *", letters > MAX_NAME ? MAX_NAME : (int)letters, reader->text + start));
+		syntax_error(reader, start, format("expected a number, x, y or '(', not the name "
+			"'%.*s'; products need a *", letters > MAX_NAME ? MAX_NAME : (int)letters,
+			reader->text + start));
 	if (c != '(')
 		syntax_error(reader, start, "expected a number, x, y or '('");
 	if (++reader->nesting > MAX_NESTING)
@@ -168,7 +175,8 @@ static Poly read_product(Reader *reader)
 		size_t start = reader->at;
 		Poly factor = read_factor(reader);
 		if (c == '/' && (factor.count == 0 || factor.term[0].mono != 0))
-			syntax_error(reader, start, factor.count ? "division by something that is not a number"
+			syntax_error(reader, start, factor.count
+				? "division by something that is not a number"
 				: "division by zero");
 		if (c == '/')
 			factor = poly_const(rat_div(rat(1, 1), factor.term[0].coef));
@@ -192,22 +200,25 @@ static Poly read_sum(Reader *reader)
 /* ---- names ---- */
 
 static const char *const KEYWORDS =
-	" alignas alignof and and_eq asm auto bitand bitor bool break case catch char class compl concept const "
-	"const_cast consteval constexpr constinit continue co_await co_return co_yield decltype default delete do double "
-	"dynamic_cast else enum explicit export extern false float for friend goto if inline int long mutable namespace "
-	"new noexcept not not_eq nullptr operator or or_eq private protected public register reinterpret_cast requires "
-	"restrict return short signed sizeof static static_assert static_cast struct switch template this thread_local "
-	"throw true try typedef typeid typename typeof union unsigned using virtual void volatile wchar_t while xor xor_eq ";
+	" alignas alignof and and_eq asm auto bitand bitor bool break case catch char class compl "
+	"concept const const_cast consteval constexpr constinit continue co_await co_return "
+	"co_yield decltype default delete do double dynamic_cast else enum explicit export extern "
+	"false float for friend goto if inline int long mutable namespace new noexcept not not_eq "
+	"nullptr operator or or_eq private protected public register reinterpret_cast requires "
+	"restrict return short signed sizeof static static_assert static_cast struct switch "
+	"template this thread_local throw true try typedef typeid typename typeof union unsigned "
+	"using virtual void volatile wchar_t while xor xor_eq ";
 static const char *const LIBRARY =
-	" area area_compensated area_rings below central_moments centroid centroid_rings closure coverage cubic cubic_area "
-	"cubic_moments conic conic_area conic_moments distance is_closed line line_area moment moments moments_about "
-	"moments_bounded moments_rings moments_xy path path_moments quad quad_area quad_moments radius raster raster_path "
-	"raster_u8 target_name targets translate_moments use_target version ";
+	" area area_compensated area_rings below central_moments centroid centroid_rings closure "
+	"coverage cubic cubic_area cubic_moments conic conic_area conic_moments distance is_closed "
+	"line line_area moment moments moments_about moments_bounded moments_rings moments_xy path "
+	"path_moments quad quad_area quad_moments radius raster raster_path raster_u8 target_name "
+	"targets translate_moments use_target version ";
 /* NAME.h must not hide a header of the standard library or of a compiler. */
 static const char *const HEADERS =
-	" assert complex cpuid ctype errno fenv float immintrin intrin inttypes iso646 limits locale math setjmp signal "
-	"stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar unistd "
-	"wchar wctype ";
+	" assert complex cpuid ctype errno fenv float immintrin intrin inttypes iso646 limits "
+	"locale math setjmp signal stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib "
+	"stdnoreturn string tgmath threads time uchar unistd wchar wctype ";
 
 static int is_listed(const char *list, const char *name)
 {
@@ -219,17 +230,20 @@ static void check_identifier(const char *option, const char *name)
 	size_t size = strlen(name);
 	if (size == 0 || size > MAX_NAME || !(name[0] >= 'a' && name[0] <= 'z')
 	    || strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_") != size)
-		fatal(EXIT_USAGE, "%s: '%s' is not a name; use a lower-case letter, then lower-case letters, digits "
-			"and _, at most %d in all", option, name, MAX_NAME);
+		fatal(EXIT_USAGE, "%s: '%s' is not a name; use a lower-case letter, then "
+			"lower-case letters, digits and _, at most %d in all", option, name,
+			MAX_NAME);
 	if (is_listed(KEYWORDS, name))
-		fatal(EXIT_USAGE, "%s: '%s' is a keyword of C or C++; choose another name", option, name);
+		fatal(EXIT_USAGE, "%s: '%s' is a keyword of C or C++; choose another name", option,
+			name);
 }
 
 void spec_prefix(const char *text)
 {
 	check_identifier("--prefix", text);
 	if (is_listed(HEADERS, text))
-		fatal(EXIT_USAGE, "--prefix: '%s' would hide the standard header %s.h; choose another name", text, text);
+		fatal(EXIT_USAGE, "--prefix: '%s' would hide the standard header %s.h; "
+			"choose another name", text, text);
 }
 
 /* Reads digits into *value; -1 and more than MAX_DEGREE both fail. */
@@ -249,8 +263,9 @@ int spec_degree(const char *text)
 	int degree;
 	const char *end = read_small(text, &degree);
 	if (!end || *end)
-		fatal(EXIT_USAGE, "--max-degree: '%s' is not a degree; give a whole number from 0 to %d (beyond it the "
-			"exact rationals no longer fit 128 bits)", text, MAX_DEGREE);
+		fatal(EXIT_USAGE, "--max-degree: '%s' is not a degree; give a whole number from 0 "
+			"to %d (beyond it the exact rationals no longer fit 128 bits)", text,
+			MAX_DEGREE);
 	return degree;
 }
 
@@ -260,11 +275,12 @@ Integrand spec_monomial(const char *text)
 	const char *end = text[0] == 'x' ? read_small(text + 1, &m) : NULL;
 	end = end && *end == 'y' ? read_small(end + 1, &n) : NULL;
 	if (!end || *end)
-		fatal(EXIT_USAGE, "'%s' is not a monomial; write xMyN with exponents from 0 to %d, such as x4y2 or x1y0",
-			text, MAX_DEGREE);
+		fatal(EXIT_USAGE, "'%s' is not a monomial; write xMyN with exponents from 0 to %d, "
+			"such as x4y2 or x1y0", text, MAX_DEGREE);
 	if (m + n > MAX_DEGREE)
-		fatal(EXIT_USAGE, "monomial '%s' has degree %d; at most %d is supported, because beyond it the exact "
-			"rationals no longer fit 128 bits", text, m + n, MAX_DEGREE);
+		fatal(EXIT_USAGE, "monomial '%s' has degree %d; at most %d is supported, because "
+			"beyond it the exact rationals no longer fit 128 bits", text, m + n,
+			MAX_DEGREE);
 	Poly integrand = poly_mono(rat(1, 1), mono_var(VAR_X, m) + mono_var(VAR_Y, n));
 	return (Integrand){ format("x%dy%d", m, n), m, n, integrand, format("x^%d y^%d", m, n) };
 }
@@ -281,17 +297,21 @@ Integrand spec_polynomial(const char *text)
 {
 	const char *equals = strchr(text, '=');
 	if (!equals)
-		fatal(EXIT_USAGE, "--polynomial: '%s' has no '='; write NAME=EXPRESSION, such as soft='(1-x)*(1-y)'", text);
+		fatal(EXIT_USAGE, "--polynomial: '%s' has no '='; write NAME=EXPRESSION, "
+			"such as soft='(1-x)*(1-y)'", text);
 	char *name = copy_string(text, (size_t)(equals - text));
 	check_identifier("--polynomial", name);
 	size_t size = strlen(name);
 	char *stem = copy_string(name, name[size - 1] == 'f' ? size - 1 : size);
-	static const char *const families[] = { "line_", "quad_", "conic_", "cubic_", "ring_", "filter_", "cpu_" };
+	static const char *const families[] = {
+		"line_", "quad_", "conic_", "cubic_", "ring_", "filter_", "cpu_"
+	};
 	int taken = is_listed(LIBRARY, name) || is_listed(LIBRARY, stem) || is_monomial_name(name);
 	for (int i = 0; i < LENGTH(families); ++i)
 		taken |= strncmp(name, families[i], strlen(families[i])) == 0;
 	if (taken)
-		fatal(EXIT_USAGE, "--polynomial: '%s' is the name of a function of the library; choose another", name);
+		fatal(EXIT_USAGE, "--polynomial: '%s' is the name of a function of the library; "
+			"choose another", name);
 	Reader reader = { format("--polynomial %s", name), equals + 1, 0, 0 };
 	reading(locate, &reader);
 	Poly integrand = read_sum(&reader);
@@ -316,7 +336,8 @@ unsigned spec_list(const char *option, const char *text, const char *const *word
 			Text known = { 0 };
 			for (int i = 0; i < count; ++i)
 				text_add(&known, "%s%s", i ? ", " : "", words[i]);
-			fatal(EXIT_USAGE, "%s: unknown word '%.*s'; known: %s", option, (int)size, p, text_take(&known));
+			fatal(EXIT_USAGE, "%s: unknown word '%.*s'; known: %s", option, (int)size,
+				p, text_take(&known));
 		}
 		bits |= 1u << found;
 		p += size;
@@ -332,14 +353,17 @@ static void check_names(const Request *request)
 	for (int i = 0; i < request->monomials; ++i)
 		for (int j = 0; j < i; ++j)
 			if (strcmp(request->monomial[i].name, request->monomial[j].name) == 0)
-				fatal(EXIT_USAGE, "--monomial %s is given twice", request->monomial[i].name);
+				fatal(EXIT_USAGE, "--monomial %s is given twice",
+					request->monomial[i].name);
 	for (int i = 0; i < request->polynomials; ++i)
 		for (int j = 0; j < request->polynomials; ++j) {
-			const char *a = request->polynomial[i].name, *b = request->polynomial[j].name;
+			const char *a = request->polynomial[i].name;
+			const char *b = request->polynomial[j].name;
 			if (i != j && strcmp(a, b) == 0)
 				fatal(EXIT_USAGE, "two polynomials are called '%s'", a);
 			if (i != j && strcmp(format("%sf", a), b) == 0)
-				fatal(EXIT_USAGE, "polynomial '%s' has the name of the float version of '%s'", b, a);
+				fatal(EXIT_USAGE, "polynomial '%s' has the name of the float "
+					"version of '%s'", b, a);
 		}
 }
 
@@ -355,7 +379,8 @@ static const char *canonical_command(const Request *request)
 		text_add(&text, " --polynomial %s='%s'", request->polynomial[i].name,
 			poly_text(request->polynomial[i].integrand, "*"));
 	if (request->precisions != (PRECISION_DOUBLE | PRECISION_FLOAT))
-		text_add(&text, " --precision %s", request->precisions == PRECISION_FLOAT ? "float" : "double");
+		text_add(&text, " --precision %s",
+			request->precisions == PRECISION_FLOAT ? "float" : "double");
 	if (request->targets != (TARGET_PORTABLE | TARGET_FMA))
 		text_add(&text, " --targets portable");
 	if (request->prefix)
@@ -370,7 +395,8 @@ void spec_complete(Request *request)
 		request->moments = 4;
 	request->targets |= TARGET_PORTABLE;
 	request->command = canonical_command(request);
-	int family = request->moments < 0 ? 0 : (request->moments + 1) * (request->moments + 2) / 2, count = 0;
+	int family = request->moments < 0 ? 0 : (request->moments + 1) * (request->moments + 2) / 2;
+	int count = 0;
 	Integrand *all = allocate((size_t)(family + request->monomials) * sizeof *all);
 	for (int d = 0; d <= request->moments; ++d)
 		for (int n = 0; n <= d; ++n)

@@ -1,11 +1,12 @@
 /* util.c - memory, text and the two ways to stop.
  *
- * One arena serves the whole process: passes allocate freely and a caller that loops over kernels takes a mark
- * and releases it. Its chunks hang on one list, so that leak checkers see them. Text lives outside the arena because
- * it outlasts the marks.
+ * One arena serves the whole process: passes allocate freely and a caller that loops over kernels
+ * takes a mark and releases it. Its chunks hang on one list, so that leak checkers see them.
+ * Text lives outside the arena because it outlasts the marks.
  *
- * fatal() is the user's mistake: a message that says what to do, exit status as given, nothing written. While a text
- * of the user's is being read, the reader says where it is, so that an overflow deep inside has a line and a column too.
+ * fatal() is the user's mistake: a message that says what to do, exit status as given,
+ * nothing written. While a text of the user's is being read, the reader says where it is,
+ * so that an overflow deep inside has a line and a column too.
  * bug() is ours: a failed proof or a broken invariant; it aborts.
  *
  * The arena and the place being read are the only mutable state of gen that outlives a function. */
@@ -134,7 +135,7 @@ void text_free(Text *text)
 
 uint64_t text_hash(const char *data, size_t size)
 {
-	uint64_t hash = 0xcbf29ce484222325u;   /* FNV-1a: offset basis and prime of its definition */
+	uint64_t hash = 0xcbf29ce484222325u;   /* offset basis and prime of FNV-1a */
 	for (size_t i = 0; i < size; ++i)
 		hash = (hash ^ (unsigned char)data[i]) * 0x100000001b3u;
 	return hash;

@@ -1,14 +1,15 @@
 /* edgewise_dispatch.c - which targets this build has, which this CPU runs, and which one is used.
  *
- * On x86 the CPU is asked by CPUID, and by XGETBV whether the operating system saves the wide registers: FMA3 works on
- * them. The answer is cached in one word, written with the same value by whichever thread comes first.
+ * On x86 the CPU is asked by CPUID, and by XGETBV whether the operating system saves the wide
+ * registers: FMA3 works on them. The answer is cached in one word, written with the same value by
+ * whichever thread comes first.
  *
  * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 #include "edgewise_runtime.h"
 
 static const struct { unsigned bit; const char *name; } ew_cpu_names[] = {
-	{ EW_PORTABLE, "portable" }, { EW_FMA, "fma" }, { EW_AVX2, "avx2" }, { EW_AVX512, "avx512" }, { EW_NEON, "neon" },
-	{ EW_WASM128, "wasm128" },
+	{ EW_PORTABLE, "portable" }, { EW_FMA, "fma" }, { EW_AVX2, "avx2" },
+	{ EW_AVX512, "avx512" }, { EW_NEON, "neon" }, { EW_WASM128, "wasm128" },
 };
 enum { EW_CPU_NAMES = (int)(sizeof ew_cpu_names / sizeof *ew_cpu_names) };
 
@@ -54,7 +55,8 @@ static unsigned ew_cpu_detect(void)
 	if (r[0] < 1)
 		return EW_PORTABLE;
 	ew_cpu_id(1, r);
-	if ((r[2] & (FMA | OSXSAVE | AVX)) != (FMA | OSXSAVE | AVX) || (ew_cpu_xcr0() & XMM_YMM) != XMM_YMM)
+	if ((r[2] & (FMA | OSXSAVE | AVX)) != (FMA | OSXSAVE | AVX)
+	    || (ew_cpu_xcr0() & XMM_YMM) != XMM_YMM)
 		return EW_PORTABLE;
 	return EW_PORTABLE | EW_FMA;
 }

@@ -1,4 +1,5 @@
-/* edgewise_rings.c - integrals over one ring: the driver in edgewise_rings_template.h, once per precision.
+/* edgewise_rings.c - integrals over one ring: the driver in edgewise_rings_template.h,
+ * once per precision.
  *
  * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 #include "edgewise_runtime.h"
@@ -7,7 +8,8 @@
 
 typedef struct { int window, accumulators, outputs; ew_ring_finish *finish; } ew_ring_shape;
 
-#define EW_SHAPE(id, window, accumulators, outputs, finish) { window, accumulators, outputs, finish },
+#define EW_SHAPE(id, window, accumulators, outputs, finish) \
+	{ window, accumulators, outputs, finish },
 static const ew_ring_shape ew_ring_shapes[] = { EW_RINGS_SHAPES(EW_SHAPE) };
 #undef EW_SHAPE
 
@@ -27,7 +29,8 @@ static int ew_ring_of_monomial(int m, int n)
 #endif
 
 #ifdef EW_MAX_DEGREE
-/* a_mn <- sum C(m,i) C(n,j) dx^(m-i) dy^(n-j) a_ij, in place: repeated a_m += dx a_(m-1), then the same in y. */
+/* a_mn <- sum C(m,i) C(n,j) dx^(m-i) dy^(n-j) a_ij, in place:
+ * repeated a_m += dx a_(m-1), then the same in y. */
 static void ew_ring_translate(int degree, double dx, double dy, double *a)
 {
 	for (int n = 0; n < degree; ++n)

@@ -1,13 +1,14 @@
 /* edgewise_rings_template.h - the ring driver, included by edgewise_rings.c once per precision.
  *
- * Parameters: EW_REAL, EW_NAME(stem) the name of a public function
- * with its suffix, EW_LOCAL(stem) that of a local one, EW_RUN the kernel type, EW_WIDTH the number of
- * virtual lanes, EW_IS_FLOAT, EW_LIST_PORTABLE, EW_LIST_FMA and EW_LIST_POLYNOMIALS the kernel lists.
+ * Parameters: EW_REAL, EW_NAME(stem) the name of a public function with its suffix, EW_LOCAL(stem)
+ * that of a local one, EW_RUN the kernel type, EW_WIDTH the number of virtual lanes, EW_IS_FLOAT,
+ * EW_LIST_PORTABLE, EW_LIST_FMA and EW_LIST_POLYNOMIALS the kernel lists.
  *
- * The items of a ring (its edges, or for the vertex form all vertices but the first) are numbered from 0; item i goes to
- * lane i mod EW_WIDTH. Kernels run on the user's arrays as long as an item does not reach past the last vertex; the
- * rest, and everything if the vertices must be moved or gathered, goes through a small buffer. Where the buffer begins does not
- * change the result. Float lanes are flushed to double after every EW_BLOCK items. At the end lanes are added by halving:
+ * The items of a ring (its edges, or for the vertex form all vertices but the first) are numbered
+ * from 0; item i goes to lane i mod EW_WIDTH. Kernels run on the user's arrays as long as an item
+ * does not reach past the last vertex; the rest, and everything if the vertices must be moved or
+ * gathered, goes through a small buffer. Where the buffer begins does not change the result. Float
+ * lanes are flushed to double after every EW_BLOCK items. At the end lanes are added by halving:
  * lane l and lane l + EW_WIDTH/2, then l and l + EW_WIDTH/4, and so on.
  *
  * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
@@ -15,7 +16,7 @@
 typedef struct {
 	const EW_REAL *x, *y;
 	size_t stride, n;
-	int moved;                     /* vertex = ((x, y) - (cx, cy)) - (dx, dy), each subtraction rounded */
+	int moved;                     /* vertex = ((x, y) - (cx, cy)) - (dx, dy), each rounded */
 	EW_REAL cx, cy, dx, dy;
 } EW_LOCAL(vertices);
 
@@ -45,8 +46,8 @@ static EW_REAL EW_LOCAL(vertex_y)(const EW_LOCAL(vertices) *v, size_t i)
 }
 
 /* Items start .. end-1, through the buffer; the ring closes by itself. */
-static void EW_LOCAL(run_staged)(EW_RUN *run, const EW_LOCAL(vertices) *v, int window, size_t start, size_t end,
-	EW_REAL *sum)
+static void EW_LOCAL(run_staged)(EW_RUN *run, const EW_LOCAL(vertices) *v, int window,
+	size_t start, size_t end, EW_REAL *sum)
 {
 	EW_REAL x[EW_STAGE + 2], y[EW_STAGE + 2];
 	const EW_REAL origin = EW_LOCAL(vertex_x)(v, 0);
@@ -82,7 +83,8 @@ static void EW_LOCAL(run_ring)(int id, const EW_LOCAL(vertices) *v, double *tota
 		size_t end = items - start < EW_BLOCK ? items : start + (size_t)EW_BLOCK;
 		size_t middle = direct < start ? start : direct < end ? direct : end;
 		if (middle > start)
-			run(v->x + start, v->y + start, EW_LOCAL(vertex_x)(v, 0), middle - start, sum);
+			run(v->x + start, v->y + start, EW_LOCAL(vertex_x)(v, 0), middle - start,
+				sum);
 		EW_LOCAL(run_staged)(run, v, shape->window, middle, end, sum);
 		for (size_t i = 0; i < cells && (EW_IS_FLOAT || end == items); ++i) {
 			wide[i] += (double)sum[i];
@@ -123,7 +125,8 @@ static void EW_LOCAL(integrate)(int id, const EW_LOCAL(vertices) *v, double *out
 	ew_ring_shapes[id].finish(total, out);
 }
 
-static EW_LOCAL(vertices) EW_LOCAL(plain)(const EW_REAL *x, const EW_REAL *y, size_t stride, size_t n)
+static EW_LOCAL(vertices) EW_LOCAL(plain)(const EW_REAL *x, const EW_REAL *y, size_t stride,
+	size_t n)
 {
 	EW_LOCAL(vertices) v = { x, y, stride, n, 0, 0, 0, 0, 0 };
 	return v;
@@ -138,7 +141,10 @@ static EW_REAL EW_LOCAL(integrate_one)(int id, const EW_REAL *x, const EW_REAL *
 }
 
 #define EW_FUNCTION(function, id, edge, k) \
-	EW_REAL function(const EW_REAL *x, const EW_REAL *y, size_t n) { return EW_LOCAL(integrate_one)(id, x, y, n); }
+	EW_REAL function(const EW_REAL *x, const EW_REAL *y, size_t n) \
+	{ \
+		return EW_LOCAL(integrate_one)(id, x, y, n); \
+	}
 EW_LIST_POLYNOMIALS(EW_FUNCTION)
 #undef EW_FUNCTION
 
@@ -174,8 +180,8 @@ int EW_NAME(moments_xy)(int degree, const EW_REAL *xy, size_t n, EW_REAL *out)
 	return EW_LOCAL(all_moments)(degree, &v, out);
 }
 
-int EW_NAME(moments_about)(int degree, const EW_REAL *x, const EW_REAL *y, size_t n, EW_REAL cx, EW_REAL cy,
-	EW_REAL *out)
+int EW_NAME(moments_about)(int degree, const EW_REAL *x, const EW_REAL *y, size_t n,
+	EW_REAL cx, EW_REAL cy, EW_REAL *out)
 {
 	EW_LOCAL(vertices) v = EW_LOCAL(plain)(x, y, 1, n);
 	v.moved = 1;
@@ -231,7 +237,8 @@ int EW_NAME(centroid)(const EW_REAL *x, const EW_REAL *y, size_t n, EW_REAL c[2]
 	return area == 0 ? EW_ZERO_AREA : EW_OK;
 }
 
-int EW_NAME(central_moments)(int degree, const EW_REAL *x, const EW_REAL *y, size_t n, EW_REAL c[2], EW_REAL *out)
+int EW_NAME(central_moments)(int degree, const EW_REAL *x, const EW_REAL *y, size_t n,
+	EW_REAL c[2], EW_REAL *out)
 {
 	EW_LOCAL(vertices) v = EW_LOCAL(plain)(x, y, 1, n);
 	double d[2];
@@ -249,9 +256,9 @@ int EW_NAME(central_moments)(int degree, const EW_REAL *x, const EW_REAL *y, siz
 	v.dx = (EW_REAL)d[0];
 	v.dy = (EW_REAL)d[1];
 	EW_LOCAL(all_moments)(degree, &v, out);
-	out[0] = (EW_REAL)area;                          /* better conditioned where the centroid lies far outside */
+	out[0] = (EW_REAL)area;   /* better conditioned where the centroid lies far outside */
 	for (int j = 1; j < EW_MOMENTS(degree) && j < 3; ++j)
-		out[j] = out[j] == out[j] ? 0 : out[j];  /* by definition, unless NaN came in */
+		out[j] = out[j] == out[j] ? 0 : out[j];   /* by definition, unless NaN came in */
 	return EW_OK;
 }
 #endif

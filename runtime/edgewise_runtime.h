@@ -8,10 +8,10 @@
 #include "edgewise_kernels.h"
 
 enum {
-	EW_LANES = 8,                  /* virtual lanes of the definition, double */
+	EW_LANES = 8,        /* virtual lanes of the definition, double */
 	EW_LANES_FLOAT = 16,
-	EW_BLOCK = 1024,               /* items between two flushes of float lanes to double; part of the definition */
-	EW_STAGE = 256                 /* vertices moved or gathered at a time; not part of the definition */
+	EW_BLOCK = 1024,     /* items between two flushes of float lanes to double, by definition */
+	EW_STAGE = 256       /* vertices moved or gathered at a time; not part of the definition */
 };
 
 #ifdef __cplusplus

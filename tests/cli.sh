@@ -193,7 +193,8 @@ polynomial() {
 				sumf += ew_line_softf(xf[i], yf[i], xf[i + 1], yf[i + 1]);
 			}
 			return !(fabs(sum) < 1e-15 && fabsf(sumf) < 1e-6f
-				&& fabs(ew_soft(x, y, 4) - 0.25) < 1e-15 && fabsf(ew_softf(xf, yf, 4) - 0.25f) < 1e-6f);
+				&& fabs(ew_soft(x, y, 4) - 0.25) < 1e-15
+				&& fabsf(ew_softf(xf, yf, 4) - 0.25f) < 1e-6f);
 		}
 	END
 	build d
@@ -236,7 +237,10 @@ targets() {
 	find d -name '*fma*' | refute grep .
 	build d
 	nm -P alone/*.o | refute grep fma
-	printf '#include "edgewise.h"\nint main(void) { return ew_targets() != EW_PORTABLE; }\n' >main.c
+	cat >main.c <<-END
+		#include "edgewise.h"
+		int main(void) { return ew_targets() != EW_PORTABLE; }
+	END
 	$CC -I alone -o main main.c alone/*.o -lm
 	./main
 }
@@ -335,7 +339,8 @@ check_of_single_files() {
 	gen --single-header s.h --manifest s.json --depfile s.d
 	gen --single-header s.h --manifest s.json --depfile s.d --check
 	echo >>s.json
-	unchanged . status 1 gen --single-header s.h --manifest s.json --depfile s.d --check >../list
+	unchanged . status 1 gen --single-header s.h --manifest s.json --depfile s.d --check \
+		>../list
 	[ "$(cat ../list)" = 'differs s.json' ]
 }
 check check_of_single_files
@@ -409,8 +414,8 @@ show() {
 	cat >>main.c <<-END
 		int main(void)
 		{
-			double sum = ew_line_x4y2(0, 0, 1, 0) + ew_line_x4y2(1, 0, 1, 1) + ew_line_x4y2(1, 1, 0, 1)
-				+ ew_line_x4y2(0, 1, 0, 0);
+			double sum = ew_line_x4y2(0, 0, 1, 0) + ew_line_x4y2(1, 0, 1, 1)
+				+ ew_line_x4y2(1, 1, 0, 1) + ew_line_x4y2(0, 1, 0, 0);
 			return !(sum > 0.06666666666666 && sum < 0.06666666666667);
 		}
 	END
@@ -427,7 +432,8 @@ dumps() {
 		grep -q ": $pass" ../dump
 		gen -d "$(echo $pass | cut -c1)" >only
 		grep -q ": $pass" only
-		[ "$(grep -cE ': (polynomial|dag|fused|schedule)' only)" -eq "$(grep -c ": $pass" only)" ]
+		[ "$(grep -cE ': (polynomial|dag|fused|schedule)' only)" \
+			-eq "$(grep -c ": $pass" only)" ]
 	done
 }
 check dumps
@@ -538,8 +544,10 @@ hostile_manifest() {
 	ln -s ../victim d/link.c
 	{
 		printf '{"generator": "gen 0.1.0",\n "files": ['
-		for name in ../victim "$PWD/victim" sub/victim sub/../../victim .. . .hidden link.c sub old.c; do
-			printf '\n  {"file": "%s", "bytes": 1, "fnv1a64": "af63dc4c8601ec8c"},' "$name"
+		for name in ../victim "$PWD/victim" sub/victim sub/../../victim .. . .hidden \
+			link.c sub old.c; do
+			printf '\n  {"file": "%s", "bytes": 1, "fnv1a64": "%s"},' \
+				"$name" af63dc4c8601ec8c
 		done
 		printf '\n ]}\n'
 	} >d/edgewise_manifest.json

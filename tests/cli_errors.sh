@@ -37,7 +37,8 @@ judge_error() {
 	said=$(head -n 1 "$work/stderr" | cut -c 1-300)
 	if [ $got -ne "$1" ]; then
 		problem="status $got, not $1; it said: $said"
-	elif ! head -n 1 "$work/stderr" | grep -q '^gen: ' || ! grep -qF -e "$2" "$work/stderr"; then
+	elif ! head -n 1 "$work/stderr" | grep -q '^gen: ' \
+		|| ! grep -qF -e "$2" "$work/stderr"; then
 		problem="no word of '$2' in: $said"
 	elif [ -s "$work/stdout" ]; then
 		problem="standard output says $(head -n 1 "$work/stdout")"
@@ -67,7 +68,8 @@ expect_caret() {
 		gsub(/[^\t]/, " ", margin)
 		print "  " margin "^"
 	}' >"$work/caret"
-	if [ -z "$problem" ] && ! grep -q "^gen: --polynomial p: line $1, column $2: " "$work/stderr"; then
+	if [ -z "$problem" ] \
+		&& ! grep -q "^gen: --polynomial p: line $1, column $2: " "$work/stderr"; then
 		problem="not line $1, column $2: $said"
 	elif [ -z "$problem" ] && ! tail -n +2 "$work/stderr" | cmp -s - "$work/caret"; then
 		problem="the caret is not under line $1, column $2"
@@ -179,7 +181,8 @@ expect_error '--polynomial without =' 2 "'soft'" --polynomial soft
 # No name of the emitted code may be the name of a polynomial, or the code would not compile.
 names_of_the_emitted_code() {
 	gen --max-degree 1 --out d
-	cat d/*.[ch] | tr -cs 'A-Za-z0-9_' '\n' | sed -n 's/^ew_\([a-z0-9_]*\)$/\1/p' | sort -u >names
+	cat d/*.[ch] | tr -cs 'A-Za-z0-9_' '\n' \
+		| sed -n 's/^ew_\([a-z0-9_]*\)$/\1/p' | sort -u >names
 	[ "$(wc -l <names)" -gt 30 ]
 	broken=
 	while read -r name; do
@@ -274,8 +277,10 @@ fi
 mkdir "$work/readonly" "$work/small"
 if mount -t tmpfs -o ro tmpfs "$work/readonly" 2>/dev/null; then
 	expect_error 'read-only folder' 1 "$work/readonly" --out "$work/readonly"
-	expect_error 'new folder on a read-only disk' 1 "$work/readonly/new" --out "$work/readonly/new"
-	expect_error 'file on a read-only disk' 1 "$work/readonly/new" --manifest "$work/readonly/new"
+	expect_error 'new folder on a read-only disk' 1 "$work/readonly/new" \
+		--out "$work/readonly/new"
+	expect_error 'file on a read-only disk' 1 "$work/readonly/new" \
+		--manifest "$work/readonly/new"
 	umount "$work/readonly"
 else
 	skip 'read-only folder' 'mount is not permitted'
@@ -286,8 +291,8 @@ fi
 if [ -n "$full" ]; then
 	for option in --single-header --manifest --depfile; do
 		expect_error "$option /dev/full" 1 '/dev/full' $option /dev/full
-		[ $option = --single-header ] || expect_error "$option /dev/full, new folder" 1 '/dev/full' \
-			$option /dev/full --out new
+		[ $option = --single-header ] || expect_error "$option /dev/full, new folder" 1 \
+			'/dev/full' $option /dev/full --out new
 	done
 	expect_error 'manifest /dev/full beside a single header' 1 '/dev/full' \
 		--single-header new --manifest /dev/full
@@ -316,7 +321,8 @@ small_disk() {
 	unchanged "$small" status 1 gen --single-header "$small/s.h" 2>message
 	gen --max-degree 3 --out d
 	cp -R d kept
-	unchanged d status 1 gen --max-degree 1 --out d --manifest "$small/d/m" --depfile "$small/absent/d"
+	unchanged d status 1 gen --max-degree 1 --out d --manifest "$small/d/m" \
+		--depfile "$small/absent/d"
 	diff -r d kept
 }
 if mount -t tmpfs -o size=64k tmpfs "$work/small" 2>/dev/null; then

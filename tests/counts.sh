@@ -3,9 +3,10 @@
 #
 #     sh tests/counts.sh [BUILD]
 #
-# fma(, *, binary + and binary - in the loop body of every ring kernel, and in every single-edge function, against the
-# comment above it, the manifest and the list in edgewise_kernels.h; the moments of the fma target also against the
-# promised bars. Loads and loop headers are not operations, nor is the sign inside a constant or before an operand.
+# fma(, *, binary + and binary - in the loop body of every ring kernel, and in every single-edge
+# function, against the comment above it, the manifest and the list in edgewise_kernels.h;
+# the moments of the fma target also against the promised bars. Loads and loop headers are not
+# operations, nor is the sign inside a constant or before an operand.
 set -u
 build=${1:-build}
 work=$(mktemp -d) || exit 1
@@ -55,17 +56,21 @@ function count(body) {
 function check_ring(kernel, ring, target) {
 	count(body)
 	expect(kernel, "the comment", comment, mul + fma " and " add)
-	expect(kernel, "the manifest", json_cost(rings[ring], target), mul " mul " fma " fma " add " add")
+	expect(kernel, "the manifest", json_cost(rings[ring], target),
+		mul " mul " fma " fma " add " add")
 	expect(kernel, "the list", listed[kernel], mul + fma " and " add)
-	if (target == "fma" && ring in most_pipe && (mul + fma > most_pipe[ring] || add > most_add[ring]))
-		fail(kernel, mul + fma " + " add " operations, promised " most_pipe[ring] " + " most_add[ring])
+	if (target == "fma" && ring in most_pipe &&
+	    (mul + fma > most_pipe[ring] || add > most_add[ring]))
+		fail(kernel, mul + fma " + " add " operations, promised " \
+			most_pipe[ring] " + " most_add[ring])
 	kernels++
 }
 
 function check_edge(name, edge) {
 	count(body)
 	expect(name, "the comment", comment, mul " and " add)
-	expect(name, "the manifest", json_cost(edges[edge], "portable"), mul " mul " fma " fma " add " add")
+	expect(name, "the manifest", json_cost(edges[edge], "portable"),
+		mul " mul " fma " fma " add " add")
 	kernels++
 }
 
@@ -80,8 +85,16 @@ function close_file() {
 	kernels = bad = 0
 }
 
-/"ring": / { match($0, /"ring": "[^"]*/); rings[substr($0, RSTART + 9, RLENGTH - 9)] = $0; expected += 4 }
-/"function": / { match($0, /ew_line_[^"]*/); edges[substr($0, RSTART, RLENGTH)] = $0; expected += 2 }
+/"ring": / {
+	match($0, /"ring": "[^"]*/)
+	rings[substr($0, RSTART + 9, RLENGTH - 9)] = $0
+	expected += 4
+}
+/"function": / {
+	match($0, /ew_line_[^"]*/)
+	edges[substr($0, RSTART, RLENGTH)] = $0
+	expected += 2
+}
 /X\(EW_RING_[A-Z0-9_]*, ew_ring_[a-z0-9_]*, [0-9]+, [0-9]+\)/ {
 	split($0, part, /[,()] */)
 	listed[part[3]] = part[4] " and " part[5]
@@ -126,15 +139,16 @@ inside && !/ = [xy]\[i/ { body = body $0 }
 END {
 	close_file()
 	if (seen != expected || seen == 0)
-		fail("all kernels", seen " found, the manifest has " expected " in two precisions and two targets")
+		fail("all kernels", seen " found, the manifest has " expected \
+			" in two precisions and two targets")
 	print passed + 0 " passed, " failed + 0 " failed"
 	exit failed > 0
 }
 END
 
 counts() {
-	awk -f "$work/counts.awk" "$1/edgewise_manifest.json" "$1/edgewise_kernels.h" "$1"/edgewise_line*.c \
-		"$1"/edgewise_moments*.c "$1"/edgewise_integrands*.c
+	awk -f "$work/counts.awk" "$1/edgewise_manifest.json" "$1/edgewise_kernels.h" \
+		"$1"/edgewise_line*.c "$1"/edgewise_moments*.c "$1"/edgewise_integrands*.c
 }
 
 # One operation more in one kernel must be noticed.

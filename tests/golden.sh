@@ -1,9 +1,10 @@
 #!/bin/sh
 # golden.sh - what gen prints and writes for a few small requests, compared with tests/golden/.
 #
-#     sh tests/golden.sh [BUILD] [accept]          accept: takes what gen says now as right (make accept)
+#     sh tests/golden.sh [BUILD] [accept]     accept: takes what gen says now as right (make accept)
 #
-# Small on purpose: a change of any pass or printer shows up here as a diff that a reviewer can read in full.
+# Small on purpose: a change of any pass or printer shows up here as a diff
+# that a reviewer can read in full.
 set -u
 build=${1:-build}
 golden=$(dirname "$0")/golden
@@ -22,7 +23,8 @@ check() {
 		echo "ok $1"
 	else
 		failed=$((failed + 1))
-		echo "not ok $1: if the change is meant, make accept; $(grep -m 1 '^[-+d][^-+]' "$work/diff")"
+		echo "not ok $1: if the change is meant, make accept;" \
+			"$(grep -m 1 '^[-+d][^-+]' "$work/diff")"
 	fi
 }
 
@@ -40,7 +42,8 @@ prints degree2.dump -d pdfs --max-degree 2
 for format in text latex json c; do
 	prints x4y2.$format --show x4y2 --format $format
 done
-"$build/gen" --quiet --max-degree 1 --precision double --out "$work/degree1" || echo "gen failed" >&2
+"$build/gen" --quiet --max-degree 1 --precision double --out "$work/degree1" ||
+	echo "gen failed" >&2
 for file in edgewise_line.c edgewise_moments_fma.c; do
 	cp "$work/degree1/$file" "$work/degree1_$file"
 	check degree1_$file

@@ -30,7 +30,8 @@ static void add(const void *data, size_t size)
 		hash = (hash ^ byte[i]) * FNV_PRIME;
 }
 
-/* Multiples of 2^-23 in [-1,1) for kind 0, of full width for kind 1, integers in -8..8 for kind 2. */
+/* Multiples of 2^-23 in [-1,1) for kind 0, of full width for kind 1,
+ * integers in -8..8 for kind 2. */
 static double coordinate(int kind)
 {
 	state = state * 6364136223846793005u + 1442695040888963407u;
@@ -86,10 +87,14 @@ static void add_edges(void)
 	double value;
 	float valuef;
 	for (size_t i = 0; i + 1 < MOST; i++) {
-#define EDGE(m, n, symbol, k) value = symbol(x[i], y[i], x[i + 1], y[i + 1]); add(&value, sizeof value);
+#define EDGE(m, n, symbol, k) \
+		value = symbol(x[i], y[i], x[i + 1], y[i + 1]); \
+		add(&value, sizeof value);
 		EW_LINES_DOUBLE(EDGE)
 #undef EDGE
-#define EDGE(m, n, symbol, k) valuef = symbol(xf[i], yf[i], xf[i + 1], yf[i + 1]); add(&valuef, sizeof valuef);
+#define EDGE(m, n, symbol, k) \
+		valuef = symbol(xf[i], yf[i], xf[i + 1], yf[i + 1]); \
+		add(&valuef, sizeof valuef);
 		EW_LINES_FLOAT(EDGE)
 #undef EDGE
 	}
@@ -97,7 +102,8 @@ static void add_edges(void)
 
 static void print_hash(const char *name)
 {
-	printf("%s %08lx%08lx\n", name, (unsigned long)(hash >> 32), (unsigned long)(hash & 0xffffffffu));
+	printf("%s %08lx%08lx\n", name, (unsigned long)(hash >> 32),
+		(unsigned long)(hash & 0xffffffffu));
 }
 
 int main(void)

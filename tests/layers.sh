@@ -1,10 +1,12 @@
 #!/bin/sh
-# layers.sh - no object of gen refers to a symbol that a later one in the order of the pipeline defines.
+# layers.sh - no object of gen refers to a symbol that a later one in the order
+# of the pipeline defines.
 #
-#     sh tests/layers.sh BUILD "util rational polynomial ..."       (the variable GEN of the Makefile)
+#     sh tests/layers.sh BUILD "util rational polynomial ..."     (the variable GEN of the Makefile)
 #
-# The text of the runtime (embedded.o, made by embed.c) is data for bundle alone. Two tests show that the check can
-# fail: the reversed order must be reported, and so must the first object if it is moved behind the last one.
+# The text of the runtime (embedded.o, made by embed.c) is data for bundle alone. Two tests show
+# that the check can fail: the reversed order must be reported, and so must the first object if
+# it is moved behind the last one.
 set -u
 build=${1:-build}
 order=${2:?the objects in the order of the pipeline}
@@ -53,10 +55,11 @@ for object in $order; do
 done
 
 verdict "layers of gen" "${missing:-$(upward "$order" | head -n 1)}"
-verdict "embedded runtime" "$(awk '$2 == "embedded_runtime" && $1 != "bundle" { print $1 " refers to it" }' \
-	"$work/symbols")"
+verdict "embedded runtime" "$(awk '
+	$2 == "embedded_runtime" && $1 != "bundle" { print $1 " refers to it" }' "$work/symbols")"
 verdict "reversed order is reported" "$([ -n "$(upward "$backwards")" ] || echo "it was not")"
 verdict "$first at the end is reported" \
-	"$(upward "$rest $first" | grep -q "refers upwards to [a-z_]* of $first\$" || echo "it was not")"
+	"$(upward "$rest $first" | grep -q "refers upwards to [a-z_]* of $first\$" ||
+		echo "it was not")"
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ]

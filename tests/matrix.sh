@@ -1,11 +1,14 @@
 #!/bin/sh
-# matrix.sh [BUILD] - compiles the emitted folder with every compiler there is and compares the bits of its results.
+# matrix.sh [BUILD] - compiles the emitted folder with every compiler there is and
+# compares the bits of its results.
 #
-# Each language standard meets each level of optimisation where it can matter: c99, gnu11 and c++17 at -O0 to -O3, c11
-# and c17, which add nothing the folder uses, at -O0 and -O2 (warnings of the front end, warnings of the optimiser).
-# -march=native goes with gnu11 and c++17, which let gcc contract a * b + c by default; gcc is told to on top of it.
-# clang is not: its -ffp-contract=fast overrides the pragma in the source by definition. Warnings are errors throughout.
-# The hashes that tests/hash.c prints must not depend on any of this; tcc, which has no FMA, must agree on the rest.
+# Each language standard meets each level of optimisation where it can matter: c99,
+# gnu11 and c++17 at -O0 to -O3, c11 and c17, which add nothing the folder uses, at -O0 and -O2
+# (warnings of the front end, warnings of the optimiser). -march=native goes with gnu11 and c++17,
+# which let gcc contract a * b + c by default; gcc is told to on top of it. clang is not:
+# its -ffp-contract=fast overrides the pragma in the source by definition. Warnings are errors
+# throughout. The hashes that tests/hash.c prints must not depend on any of this; tcc, which has
+# no FMA, must agree on the rest.
 set -u
 build=${1:-build}
 tests=$(dirname "$0")
@@ -17,8 +20,9 @@ ok() { passed=$((passed + 1)); echo "ok $1"; }
 not_ok() { failed=$((failed + 1)); echo "not ok $1: $2"; }
 has() { command -v "$1" >/dev/null 2>&1; }
 
-STRICT="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wundef -Wdouble-promotion -Wcast-qual -Werror"
-SECONDS_ALLOWED=90                                # promised: 30 on one core; a loaded machine gets three times that
+STRICT="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wundef -Wdouble-promotion -Wcast-qual"
+STRICT="$STRICT -Werror"
+SECONDS_ALLOWED=90          # promised: 30 on one core; a loaded machine gets three times that
 
 # compile DIRECTORY COMPILER FLAGS...: objects, then the program `hash`
 compile() {
@@ -29,7 +33,8 @@ compile() {
 
 run_combination() {
 	name=$(echo "$*" | tr -d ' /')
-	compile "$work/$name" "$@" $STRICT >"$work/$name.log" 2>&1 && "$work/$name/hash" >"$work/$name.out" 2>&1
+	compile "$work/$name" "$@" $STRICT >"$work/$name.log" 2>&1 &&
+		"$work/$name/hash" >"$work/$name.out" 2>&1
 	echo $? >"$work/$name.status"
 	rm -rf "${work:?}/$name"
 }
@@ -65,9 +70,11 @@ worker() {
 judge() {
 	name=$(echo "$1" | tr -d ' /')
 	if [ "$(cat "$work/$name.status")" -ne 0 ]; then
-		not_ok "$1" "$(grep -E -m 1 'error|warning' "$work/$name.log" || tail -n 1 "$work/$name.log")"
+		not_ok "$1" "$(grep -E -m 1 'error|warning' "$work/$name.log" ||
+			tail -n 1 "$work/$name.log")"
 	elif ! cmp -s "$work/$name.out" "$work/want"; then
-		not_ok "$1" "bits differ: $(tr '\n' ' ' <"$work/$name.out")instead of $(tr '\n' ' ' <"$work/want")"
+		not_ok "$1" "bits differ: $(tr '\n' ' ' <"$work/$name.out")instead of $(
+			tr '\n' ' ' <"$work/want")"
 	else
 		ok "$1"
 	fi
@@ -87,22 +94,26 @@ test_seconds() {
 	fi
 }
 
-# What a C++ user sees, and all kernels, also pass -Wold-style-cast; the two driver files of the runtime are C and cast.
+# What a C++ user sees, and all kernels, also pass -Wold-style-cast; the two driver files
+# of the runtime are C and cast.
 test_casts() {
 	has "$1" || { echo "skip casts of $1: not installed"; return; }
 	log=$(for file in "$build"/emitted/*.c; do
 		case $file in *_dispatch.c | *_rings.c) continue ;; esac
 		"$1" -x c++ -std=c++17 -Wold-style-cast -Werror -fsyntax-only "$file" 2>&1
-	done) && [ -z "$log" ] && ok "casts of $1" || not_ok "casts of $1" "$(echo "$log" | grep -m 1 error)"
+	done) && [ -z "$log" ] && ok "casts of $1" ||
+		not_ok "casts of $1" "$(echo "$log" | grep -m 1 error)"
 }
 
 test_tcc() {
 	has tcc || { echo "skip tcc: not installed"; return; }
 	mkdir "$work/tcc"
 	for file in "$build"/emitted/*.c "$tests/hash.c"; do
-		tcc -Wall -Werror -I"$build/emitted" -c -o "$work/tcc/$(basename "$file" .c).o" "$file" 2>&1
+		tcc -Wall -Werror -I"$build/emitted" -c -o "$work/tcc/$(basename "$file" .c).o" \
+			"$file" 2>&1
 	done >"$work/log"
-	if [ -s "$work/log" ] || ! tcc -o "$work/tcc/hash" "$work"/tcc/*.o -lm >"$work/log" 2>&1; then
+	if [ -s "$work/log" ] ||
+	   ! tcc -o "$work/tcc/hash" "$work"/tcc/*.o -lm >"$work/log" 2>&1; then
 		not_ok tcc "$(head -n 1 "$work/log")"
 	elif "$work/tcc/hash" >"$work/got"; grep -v '^fma' "$work/want" | cmp -s - "$work/got"; then
 		ok tcc

@@ -1,11 +1,14 @@
 #!/bin/sh
 # mutation.sh [BUILD] - breaks things on purpose; every break must be caught.
 #
-# (a) One coefficient, sign or index in gen: the proof must stop gen before it writes a file. The schemes, fusion and
-# schedule are covered one by one, and Green's theorem itself, which the schemes with formulas of their own contradict.
-# A change that only spoils the mirrored order of evaluation keeps every value and must fall to the reversal proof.
-# (b) The same in emitted files, where no proof can see it: the kernel tests must name the broken function.
-# A mutation whose pattern is not found counts as a failure, so that the list keeps up with the sources.
+# (a) One coefficient, sign or index in gen: the proof must stop gen before it writes a file.
+# The schemes, fusion and schedule are covered one by one, and Green's theorem itself, which
+# the schemes with formulas of their own contradict. A change that only spoils the mirrored order
+# of evaluation keeps every value and must fall to the reversal proof.
+# (b) The same in emitted files, where no proof can see it: the kernel tests must name the broken
+# function.
+# A mutation whose pattern is not found counts as a failure, so that the list keeps up with the
+# sources.
 set -u
 build=${1:-build}
 tests=$(dirname "$0")
@@ -57,7 +60,8 @@ index in the finish of degree 3|edgewise_finish.c|/moments_3_finish/,/^}/s/\* su
 sign in x2y2|edgewise_integrands_portable.c|/ew_ring_x2y2_portable/,/^}/s/ = x1 - x0;/ = x1 + x0;/|rings|EW_RING_X2Y2
 END
 
-# mutate_gen TREE NAME FILE SCRIPT: in a copy of the sources, where make rebuilds what the mutation touches.
+# mutate_gen TREE NAME FILE SCRIPT: in a copy of the sources,
+# where make rebuilds what the mutation touches.
 mutate_gen() {
 	name=$2 file=$1/gen/$3
 	cp "$file" "$1/original"
@@ -87,7 +91,8 @@ build_gen() { make -s -C "$1" B=build CFLAGS=-O1 LDFLAGS= build/gen; }
 worker() {
 	tree=$work/tree$1
 	mkdir "$tree" && cp -r "$root/gen" "$root/runtime" "$root/Makefile" "$tree" || exit 1
-	if ! { build_gen "$tree" && "$tree/build/gen" --quiet --max-degree 6 --out "$tree/out"; } >"$tree/log" 2>&1; then
+	if ! { build_gen "$tree" && "$tree/build/gen" --quiet --max-degree 6 --out "$tree/out"; } \
+		>"$tree/log" 2>&1; then
 		not_ok "gen without mutation" "$(head -n 1 "$tree/log")"
 		return
 	fi
@@ -126,7 +131,8 @@ mutate_emitted() {
 test_emitted() {
 	mkdir "$work/lib"
 	for file in "$build"/emitted/*.c; do
-		${CC:-cc} $flags -c -o "$work/lib/$(basename "$file" .c).o" "$file" || not_ok "$file" "does not compile"
+		${CC:-cc} $flags -c -o "$work/lib/$(basename "$file" .c).o" "$file" ||
+			not_ok "$file" "does not compile"
 	done
 	for test in lines rings; do
 		first=$(first_failure $test "$work"/lib/*.o)
@@ -147,4 +153,7 @@ else
 	echo "skip emitted files: libmpfr-dev is not installed" >"$work/out2"
 fi
 cat "$work"/out?
-cat "$work"/out? | awk '/^ok/ { ++ok } /^not ok/ { ++bad } END { print ok + 0 " passed, " bad + 0 " failed"; exit bad > 0 }'
+cat "$work"/out? | awk '
+	/^ok/ { ++ok }
+	/^not ok/ { ++bad }
+	END { print ok + 0 " passed, " bad + 0 " failed"; exit bad > 0 }'

@@ -1,6 +1,7 @@
-/* polynomials.c - what `gen --polynomial` emits, against exact moments: the integral of a polynomial is the sum of its
- * coefficients times moments, and so is the weight of its error bound with every term positive. Both precisions, every
- * target, edges and rings. The emission is made by the Makefile from the same expressions as in the table below. */
+/* polynomials.c - what `gen --polynomial` emits, against exact moments: the integral of a
+ * polynomial is the sum of its coefficients times moments, and so is the weight of its error bound
+ * with every term positive. Both precisions, every target, edges and rings. The emission is made by
+ * the Makefile from the same expressions as in the table below. */
 #include "bounds.h"
 
 #include "edgewise.h"
@@ -100,8 +101,9 @@ static void test_rings(const Polynomial *p, unsigned target)
 		ref_ring(moment, p->degree, x, y, n);
 		combine(want, p, moment);
 		long k = ring_bound[p->id].k, r = ring_bound[p->id].r, items = (long)n;
-		expect_within(p->ring(x, y, n), want, k + r * ((items + 7) / 8) + 3, 53, 0, "n = %zu", n);
-		expect_within((double)p->ringf(xf, yf, n), want, k + r * ((items + 15) / 16) + 5, 24, 0, "n = %zu, float", n);
+		long kd = k + r * ((items + 7) / 8) + 3, kf = k + r * ((items + 15) / 16) + 5;
+		expect_within(p->ring(x, y, n), want, kd, 53, 0, "n = %zu", n);
+		expect_within((double)p->ringf(xf, yf, n), want, kf, 24, 0, "n = %zu, float", n);
 	}
 	check_end();
 	ref_free(moment, ref_count(DEGREE));

@@ -1,11 +1,11 @@
 /* What the ring functions promise besides their numbers.
  *
  * They read nothing beyond the n vertices and write nothing beyond the moments asked for: arrays
- * end or begin at an inaccessible page, inputs are read-only pages, and every output stands
- * between canaries. They work at any element alignment. NaN or infinity in any coordinate makes
- * every moment NaN or infinite, since each coordinate is a factor of the cross product of its two
- * edges. A degree out of range is refused and writes nothing. A target is forced, and the forced one is really
- * used: portable and fma differ in some bits, and a refused choice leaves them as they were.
+ * end or begin at an inaccessible page, inputs are read-only pages, and every output stands between
+ * canaries. They work at any element alignment. NaN or infinity in any coordinate makes every
+ * moment NaN or infinite, since each coordinate is a factor of the cross product of its two edges.
+ * A degree out of range is refused and writes nothing. A target is forced, and the forced one is
+ * really used: portable and fma differ in some bits, and a refused choice leaves them as they were.
  */
 #define _DEFAULT_SOURCE
 

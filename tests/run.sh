@@ -3,9 +3,10 @@
 #
 #     sh tests/run.sh LOGS 'NAME: COMMAND' ...
 #
-# A suite prints `ok NAME`, `not ok NAME: why`, `skip NAME: why` and last `N passed, N failed`. Its output goes to
-# LOGS/NAME.log; failures and skips are shown here. A suite that ends without that last line, or with a status
-# that contradicts it, counts as one failure more. The last line of all is the sum.
+# A suite prints `ok NAME`, `not ok NAME: why`, `skip NAME: why` and last `N passed, N failed`.
+# Its output goes to LOGS/NAME.log; failures and skips are shown here. A suite that ends
+# without that last line, or with a status that contradicts it, counts as one failure more.
+# The last line of all is the sum.
 
 logs=$1
 shift

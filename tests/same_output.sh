@@ -1,11 +1,13 @@
 #!/bin/sh
-# same_output.sh - what gen writes depends on the request alone, and high degrees finish in time and memory.
+# same_output.sh - what gen writes depends on the request alone, and high degrees
+# finish in time and memory.
 #
 #     sh tests/same_output.sh [BUILD]
 #
-# gen is built in trees of its own by gcc -O0, gcc -O2, clang -O2 and with sanitizers; all must write the same bytes,
-# say nothing on stderr, and agree with BUILD/gen and the committed generated/. Seconds are printed, not judged: they
-# are the machine's. Memory is judged where /usr/bin/time can tell it, else by a limit on the address space.
+# gen is built in trees of its own by gcc -O0, gcc -O2, clang -O2 and with sanitizers;
+# all must write the same bytes, say nothing on stderr, and agree with BUILD/gen and the committed
+# generated/. Seconds are printed, not judged: they are the machine's. Memory is judged where
+# /usr/bin/time can tell it, else by a limit on the address space.
 set -u
 build=${1:-build}
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -35,15 +37,16 @@ build() {
 		*-sanitizers) set -- 'CFLAGS=-O1 -g' SAN=1 ;;
 		*) set -- "CFLAGS=-${variant#*-}" ;;
 		esac
-		make -s -C "$root" B="$work/$variant" CC="${variant%-*}" LDFLAGS= "$@" "$work/$variant/gen" \
-			>"$work/$variant.log" 2>&1
+		make -s -C "$root" B="$work/$variant" CC="${variant%-*}" LDFLAGS= "$@" \
+			"$work/$variant/gen" >"$work/$variant.log" 2>&1
 	done
 }
 
 # emit GEN FOLDER: two requests
 emit() {
 	"$1" --quiet --max-degree 8 --out "$2-8" &&
-		"$1" --quiet --max-degree 3 --monomial x5y3 --polynomial 'soft=(1-x)*(1-y)' --prefix foo --out "$2-foo"
+		"$1" --quiet --max-degree 3 --monomial x5y3 --polynomial 'soft=(1-x)*(1-y)' \
+			--prefix foo --out "$2-foo"
 }
 
 # compare VARIANT

@@ -1,8 +1,9 @@
 /* units.c - the value types of the generator against GMP and MPFR.
  *
- * Rationals: the four operations on random operands of up to 60 bits, and the literal of the nearest double and float
- * against MPFR's rounding. Polynomials: sums, products and substitution against evaluation at random rational points. DAG: what
- * dag_reverses must accept and refuse. Overflow must end the program with status 2, never give a wrong digit. */
+ * Rationals: the four operations on random operands of up to 60 bits, and the literal of the
+ * nearest double and float against MPFR's rounding. Polynomials: sums, products and substitution
+ * against evaluation at random rational points. DAG: what dag_reverses must accept and refuse.
+ * Overflow must end the program with status 2, never give a wrong digit. */
 #include "check.h"
 
 #include <gmp.h>
@@ -42,8 +43,13 @@ static bool same_rational(Rat a, const mpq_t want)
 
 static void test_rationals(void)
 {
-	static const struct { const char *name; Rat (*have)(Rat, Rat); void (*want)(mpq_t, const mpq_t, const mpq_t); } ops[] = {
-		{ "add", rat_add, mpq_add }, { "sub", rat_sub, mpq_sub }, { "mul", rat_mul, mpq_mul }, { "div", rat_div, mpq_div },
+	static const struct {
+		const char *name;
+		Rat (*have)(Rat, Rat);
+		void (*want)(mpq_t, const mpq_t, const mpq_t);
+	} ops[] = {
+		{ "add", rat_add, mpq_add }, { "sub", rat_sub, mpq_sub },
+		{ "mul", rat_mul, mpq_mul }, { "div", rat_div, mpq_div },
 	};
 	mpq_t p, q, want;
 	mpq_inits(p, q, want, NULL);
@@ -57,7 +63,8 @@ static void test_rationals(void)
 			set_rational(p, a);
 			set_rational(q, b);
 			ops[op].want(want, p, q);
-			expect(same_rational(ops[op].have(a, b), want), "%s and %s", rat_text(a), rat_text(b));
+			expect(same_rational(ops[op].have(a, b), want), "%s and %s", rat_text(a),
+				rat_text(b));
 			arena_release(mark);
 		}
 		check_end();
@@ -79,7 +86,8 @@ static void test_literals(void)
 			set_rational(q, a);
 			mpfr_set_q(value, q, MPFR_RNDN);
 			char *literal = rat_literal(a, is_float);
-			double have = is_float ? (double)strtof(literal, NULL) : strtod(literal, NULL);
+			double have = is_float ? (double)strtof(literal, NULL)
+				: strtod(literal, NULL);
 			expect(mpfr_cmp_d(value, have) == 0, "%s as %s", rat_text(a), literal);
 			arena_release(mark);
 		}
@@ -205,8 +213,8 @@ static void test_polynomials(void)
 		Poly a = random_polynomial(), b = random_polynomial();
 		const int vars[] = { VAR_X, VAR_X1 };
 		const Poly by[] = { b, poly_add(b, poly_var(VAR_T)) };
-		const Poly result[] = { poly_add(a, b), poly_sub(a, b), poly_mul(a, b), poly_pow(a, 3),
-			poly_substitute(a, vars, by, 2) };
+		const Poly result[] = { poly_add(a, b), poly_sub(a, b), poly_mul(a, b),
+			poly_pow(a, 3), poly_substitute(a, vars, by, 2) };
 		evaluate(p, a, at);
 		evaluate(q, b, at);
 		for (int k = 0; k < LENGTH(result); ++k) {
@@ -230,7 +238,8 @@ static void test_polynomials(void)
 				mpq_clear(moved[VAR_X1]);
 			}
 			evaluate(have, result[k], at);
-			expect(mpq_equal(have, want), "operation %d on %s and %s", k, poly_text(a, " "), poly_text(b, " "));
+			expect(mpq_equal(have, want), "operation %d on %s and %s", k,
+				poly_text(a, " "), poly_text(b, " "));
 			expect(is_ordered(result[k]), "operation %d gives terms out of order", k);
 		}
 		expect(poly_equal(poly_mul(a, b), poly_mul(b, a)), "the product does not commute");
@@ -247,7 +256,8 @@ static void test_polynomials(void)
 static int reverses(int fused, int same_order)
 {
 	Dag *dag = dag_new("test");
-	Ref x0 = dag_var(dag, VAR_X0), y0 = dag_var(dag, VAR_Y0), x1 = dag_var(dag, VAR_X1), y1 = dag_var(dag, VAR_Y1);
+	Ref x0 = dag_var(dag, VAR_X0), y0 = dag_var(dag, VAR_Y0);
+	Ref x1 = dag_var(dag, VAR_X1), y1 = dag_var(dag, VAR_Y1);
 	Ref left = dag_mul(dag, x0, y1), right = dag_mul(dag, x1, y0);
 	Ref s = fused ? dag_node(dag, OP_FMS, x0, y1, right) : dag_sub(dag, left, right);
 	Ref near = dag_scale(dag, rat(3, 1), x0), far = dag_scale(dag, rat(3, 1), x1);
