@@ -49,6 +49,7 @@ Dag *dag_new(const char *scheme)
 	Dag *dag = allocate(sizeof *dag);
 	dag->scheme = scheme;
 	dag->window = 2;
+	dag->turns = 1;
 	dag->room = 64;
 	dag->node = allocate((size_t)dag->room * sizeof *dag->node);
 	dag->out = allocate(sizeof *dag->out);

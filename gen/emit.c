@@ -137,7 +137,8 @@ static void name_values(Printer *printer)
 		int is_input = node->op == OP_INPUT;
 		int accumulator = is_input ? mono_accumulator_of(node->input) : -1;
 		if (accumulator >= 0)
-			printer->name[i] = format(printer->style->accumulator, accumulator);
+			printer->name[i] = format(printer->style->accumulator,
+				printer->style->first + accumulator);
 		for (int var = 0; var < VARS && accumulator < 0 && is_input; ++var)
 			if (node->input == mono_var(var, 1))
 				printer->name[i] = var_name(var);
@@ -219,7 +220,7 @@ void emit_program(Text *text, const Program *program, const Style *style)
 			continue;
 		char *value = expression(&printer, ref, 1);
 		if (k >= 0)
-			value = format("%s%s;", format(style->output, k), value);
+			value = format("%s%s;", format(style->output, style->first + k), value);
 		else
 			value = format("const %s %s = %s;", style->precision->real,
 				printer.name[ref], value);
@@ -228,6 +229,6 @@ void emit_program(Text *text, const Program *program, const Style *style)
 	for (int k = 0; k < dag->outs; ++k)          /* an output that is a bare accumulator */
 		if (op_operands(dag->node[dag->out[k]].op) == 0)
 			emit_statement(text, style->indent, format("%s%s;",
-				format(style->output, k), expression(&printer, dag->out[k], 0)));
+				format(style->output, style->first + k), expression(&printer, dag->out[k], 0)));
 	arena_release(mark);
 }

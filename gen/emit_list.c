@@ -95,12 +95,13 @@ static void add_ids(Text *text, const Kernels *kernels)
 		text_add(text, "\t%s,\n", ring_id(&kernels->ring[i]));
 	text_add(text, "\tEW_RINGS_COUNT,\n\tEW_MAX_ACCUMULATORS = %d,\n\tEW_MAX_OUTPUTS = %d\n"
 		"};\n", accumulators, outputs);
-	text_add(text, "\n/* X(id, window, accumulators, outputs, finish): for the ring driver; "
+	text_add(text, "\n/* X(id, window, turns, accumulators, outputs, finish): for the ring driver; "
 		"window counts vertices */\n#define EW_RINGS_SHAPES(X)");
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
-		text_add(text, " \\\n\tX(%s, %d, %d, %d, ew_ring_%s_finish)", ring_id(ring),
-			ring->window, ring->accumulators, ring->outputs, ring->name);
+		text_add(text, " \\\n\tX(%s, %d, %d, %d, %d, ew_ring_%s_finish)", ring_id(ring),
+			ring->window, ring->turns, ring->accumulators, ring->outputs,
+			ring->name);
 	}
 	text_add(text, "\n\n/* X(m, n, id): single moments */\n%s#define EW_MONOMIALS(X)",
 		has_monomials(kernels) ? "#define EW_HAS_MONOMIALS 1\n" : "");
@@ -164,7 +165,7 @@ static void add_types(Text *text, const Request *request)
 				real, real, real, real);
 	}
 	text_add(text, "typedef void ew_ring_finish(const double *sum, double *out);\n\n"
-		"#define EW_DECLARE(id, window, accumulators, outputs, finish) "
+		"#define EW_DECLARE(id, window, turns, accumulators, outputs, finish) "
 		"ew_ring_finish finish;\n"
 		"EW_RINGS_SHAPES(EW_DECLARE)\n#undef EW_DECLARE\n");
 	for (int p = 0; p < precision_count; ++p)
@@ -240,8 +241,8 @@ static void add_rings(Text *text, const Request *request, const Kernels *kernels
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
 		text_add(text, "%s\n  {\"ring\": \"%s\", \"family\": \"%s\", \"scheme\": \"%s\", "
-			"\"window\": %d, \"accumulators\": %d, \"outputs\": %d", i ? "," : "",
-			ring->name, ring->family, ring->scheme, ring->window, ring->accumulators,
+			"\"window\": %d, \"turns\": %d, \"accumulators\": %d, \"outputs\": %d", i ? "," : "",
+			ring->name, ring->family, ring->scheme, ring->window, ring->turns, ring->accumulators,
 			ring->outputs);
 		add_count(text, "portable", &ring->portable);
 		if (request->targets & TARGET_FMA)

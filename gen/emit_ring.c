@@ -31,17 +31,20 @@ static void add_signature(Text *text, const Ring *ring, const Target *target,
 		real);
 }
 
-static void add_loads(Text *text, const Ring *ring, const char *real)
+/* The window of item i + ahead. */
+static void add_loads(Text *text, const Ring *ring, const char *real, int ahead, int indent)
 {
-	static const struct { const char *name, *value; int window; } loads[] = {
-		{ "x0", "x[i]", 2 }, { "y0", "y[i]", 2 },
-		{ "x1", "x[i + 1]", 2 }, { "y1", "y[i + 1]", 2 },
-		{ "y0", "y[i]", 3 }, { "x1", "x[i + 1]", 3 }, { "y2", "y[i + 2]", 3 },
+	static const struct { const char *name, *array; int offset, window; } loads[] = {
+		{ "x0", "x", 0, 2 }, { "y0", "y", 0, 2 }, { "x1", "x", 1, 2 }, { "y1", "y", 1, 2 },
+		{ "y0", "y", 0, 3 }, { "x1", "x", 1, 3 }, { "y2", "y", 2, 3 },
 	};
-	for (int i = 0; i < LENGTH(loads); ++i)
+	for (int i = 0; i < LENGTH(loads); ++i) {
+		int offset = loads[i].offset + ahead;
+		char *place = offset ? format("i + %d", offset) : format("i");
 		if (loads[i].window == ring->window)
-			text_add(text, "\t\t\tconst %s %s = %s;\n", real, loads[i].name,
-				loads[i].value);
+			emit_statement(text, indent, format("const %s %s = %s[%s];", real,
+				loads[i].name, loads[i].array, place));
+	}
 }
 
 static char *lane_sum(int accumulator, const Precision *precision)
@@ -51,11 +54,29 @@ static char *lane_sum(int accumulator, const Precision *precision)
 	return format("sum[%d + lane]", accumulator * precision->lanes);
 }
 
+/* The items of one lane; each turn has accumulators of its own. */
+static void add_loop(Text *text, const Ring *ring, const Program *program,
+	const Precision *precision)
+{
+	const int lanes = precision->lanes;
+	text_add(text, "\t\tfor (size_t i = lane; i < count; i += %d) {\n", ring->turns * lanes);
+	for (int turn = 0; turn < ring->turns; ++turn) {
+		int first = turn * ring->accumulators / ring->turns, indent = ring->turns > 1 ? 4 : 3;
+		const Style style = { precision, 0, indent, first, "acc%d", "acc%d = " };
+		if (ring->turns > 1)         /* a block each: the same names occur in every turn */
+			text_add(text, turn ? "\t\t\tif (count - i > %d) {\n" : "\t\t\t{\n", turn * lanes);
+		add_loads(text, ring, precision->real, turn * lanes, indent);
+		emit_program(text, program, &style);
+		if (ring->turns > 1)
+			text_add(text, "\t\t\t}\n");
+	}
+	text_add(text, "\t\t}\n");
+}
+
 static void add_kernel(Text *text, const Ring *ring, const Target *target,
 	const Precision *precision)
 {
 	const Program *program = target->fused ? &ring->fused : &ring->portable;
-	const Style style = { precision, 0, 3, "acc%d", "acc%d = " };
 	text_add(text, "\n/* %s; scheme %s.\n", describe(ring), ring->scheme);
 	text_add(text, " * Cost per item: %d %s, %d add; %d accumulators, %d values alive, "
 		"depth %d. */\n", program->cost.fma, target->fused ? "mul or fma" : "mul",
@@ -68,10 +89,7 @@ static void add_kernel(Text *text, const Ring *ring, const Target *target,
 		precision->lanes);
 	for (int k = 0; k < ring->accumulators; ++k)
 		text_add(text, "\t\t%s acc%d = %s;\n", precision->real, k, lane_sum(k, precision));
-	text_add(text, "\t\tfor (size_t i = lane; i < count; i += %d) {\n", precision->lanes);
-	add_loads(text, ring, precision->real);
-	emit_program(text, program, &style);
-	text_add(text, "\t\t}\n");
+	add_loop(text, ring, program, precision);
 	for (int k = 0; k < ring->accumulators; ++k)
 		text_add(text, "\t\t%s = acc%d;\n", lane_sum(k, precision), k);
 	text_add(text, "\t}\n}\n");
@@ -129,7 +147,7 @@ static void emit_target(Files *files, const Request *request, const Kernels *ker
  * the same for every target and precision. */
 static void emit_finish(Files *files, const Request *request, const Kernels *kernels)
 {
-	const Style style = { &precisions[0], 0, 1, "sum[%d]", "out[%d] = " };
+	const Style style = { &precisions[0], 0, 1, 0, "sum[%d]", "out[%d] = " };
 	Text *text = open_file(files, request, NULL, "edgewise_finish.c",
 		"from accumulator sums to results");
 	for (int i = 0; i < kernels->rings; ++i) {

@@ -52,5 +52,6 @@ Dag *fuse(const Dag *dag)
 	f.to->finish = dag->finish;
 	f.to->finishes = dag->finishes;
 	f.to->window = dag->window;
+	f.to->turns = dag->turns;
 	return f.to;
 }

@@ -169,6 +169,8 @@ typedef struct {
 	Ref  *out; int outs;                 /* roots, in the order of the outputs */
 	Poly *finish; int finishes;          /* moments as linear forms of accumulators, or none */
 	const char *scheme;                  /* name of the scheme that built it */
+	int   turns;                         /* sets of accumulators that the items of a lane take
+	                                      * in turn, to hide the latency of one */
 	int   window;                        /* vertices an item reads: 2 edge, 3 vertex form */
 } Dag;
 
@@ -274,7 +276,7 @@ typedef struct {                             /* one family member that runs over
 	const char *name;                    /* moments_8, x4y2, soft */
 	const char *family;                  /* moments, monomial, polynomial */
 	int m, n;                            /* degree 0 of a family, exponents, -1 -1 */
-	int outputs, accumulators, window;
+	int outputs, accumulators, turns, window;    /* accumulators of all turns */
 	const char *scheme;
 	Program portable, fused, finish;
 	Bound *bound;                        /* per output, of the portable program */
@@ -311,6 +313,7 @@ extern const int precision_count;
 typedef struct {                             /* how a program is written */
 	const Precision *precision;
 	int nested, indent;
+	int first;                                   /* number of the first accumulator */
 	const char *accumulator, *output;    /* patterns: "acc%d", "acc%d = " */
 } Style;
 

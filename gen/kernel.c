@@ -92,7 +92,8 @@ static void build_ring(Ring *ring, const Integral *want, int moments, const Dump
 	ring->bound = bound_ring(dag, want, ring->outputs);
 	for (int j = 0; j < ring->outputs; ++j)
 		worsen(&ring->worst, ring->bound[j]);
-	ring->accumulators = dag->outs;
+	ring->accumulators = dag->outs * dag->turns;
+	ring->turns = dag->turns;
 	ring->window = dag->window;
 	ring->scheme = dag->scheme;
 }

@@ -124,13 +124,27 @@ void prove_program(const Program *program, const Integral *want, int count)
 	arena_release(mark);
 }
 
+/* The form of one turn's accumulators, for the accumulators of all turns. */
+static Poly all_turns(Poly form, const Dag *ring)
+{
+	Poly sum = form;
+	for (int turn = 1; turn < ring->turns; ++turn)
+		for (int i = 0; i < form.count; ++i) {
+			int k = mono_accumulator_of(form.term[i].mono) + turn * ring->outs;
+			sum = poly_add(sum, poly_mono(form.term[i].coef, mono_accumulator(k)));
+		}
+	return sum;
+}
+
 void prove_finish(const Program *finish, const Dag *ring)
 {
 	Mark mark = arena_mark();
 	const Poly *poly = dag_expand(finish->dag);
-	for (int j = 0; j < ring->finishes; ++j)
-		if (!poly_equal(poly[finish->dag->out[j]], ring->finish[j]))
-			disprove("finish", j, poly[finish->dag->out[j]], ring->finish[j]);
+	for (int j = 0; j < ring->finishes; ++j) {
+		Poly want = all_turns(ring->finish[j], ring);
+		if (!poly_equal(poly[finish->dag->out[j]], want))
+			disprove("finish", j, poly[finish->dag->out[j]], want);
+	}
 	arena_release(mark);
 }
 
@@ -240,10 +254,13 @@ Bound *bound_ring(const Dag *dag, const Integral *want, int count)
 	Bound *bound = allocate((size_t)count * sizeof *bound);
 	Mark mark = arena_mark();
 	const Weight *weight = weights(dag, NULL);
-	Weight *value = allocate((size_t)dag->outs * sizeof *value);
+	Weight *value = allocate((size_t)(dag->outs * dag->turns) * sizeof *value);
 	int *repeat = allocate((size_t)dag->outs * sizeof *repeat);
-	for (int k = 0; k < dag->outs; ++k)
+	for (int k = 0; k < dag->outs; ++k) {
 		value[k] = without_accumulator(weight[dag->out[k]], k, &repeat[k]);
+		for (int turn = 1; turn < dag->turns; ++turn)
+			value[k + turn * dag->outs] = value[k];
+	}
 	const Dag *finish = scheme_finish(dag);
 	const Weight *result = weights(finish, value);
 	for (int j = 0; j < count; ++j) {

@@ -138,6 +138,7 @@ static Dag *vertex_form(Rat value)
 {
 	Dag *dag = dag_new("vertex");
 	dag->window = 3;
+	dag->turns = 2;
 	Ref width = difference_of(dag, VAR_CX, VAR_X1, "width");
 	Ref height = difference_of(dag, VAR_Y0, VAR_Y2, "height");
 	dag_accumulate(dag, dag_mul(dag, width, height));
@@ -253,8 +254,13 @@ Dag *scheme_finish(const Dag *ring)
 		Ref sum = NONE;
 		for (int i = form.count - 1; i >= 0; --i) {
 			const Term *term = &form.term[i];
-			Ref accumulator = dag_accumulator(dag, mono_accumulator_of(term->mono));
-			sum = dag_add(dag, sum, dag_scale(dag, term->coef, accumulator));
+			int k = mono_accumulator_of(term->mono);
+			Ref total = dag_accumulator(dag, k);
+			for (int turn = 1; turn < ring->turns; ++turn) {
+				Ref next = dag_accumulator(dag, k + turn * ring->outs);
+				total = dag_add(dag, total, next);
+			}
+			sum = dag_add(dag, sum, dag_scale(dag, term->coef, total));
 		}
 		dag_out(dag, dag_scale(dag, content, sum));
 	}

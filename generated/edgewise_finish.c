@@ -12,7 +12,8 @@
 /* area */
 void ew_ring_moments_0_finish(const double *sum, double *out)
 {
-	out[0] = 0.5 * sum[0];
+	const double t0 = sum[0] + sum[1];
+	out[0] = 0.5 * t0;
 }
 
 /* all moments of x^m y^n, m + n <= 1 */
@@ -309,7 +310,8 @@ void ew_ring_moments_8_finish(const double *sum, double *out)
 /* area */
 void ew_ring_x0y0_finish(const double *sum, double *out)
 {
-	out[0] = 0.5 * sum[0];
+	const double t0 = sum[0] + sum[1];
+	out[0] = 0.5 * t0;
 }
 
 /* integral of x^1 y^0 */

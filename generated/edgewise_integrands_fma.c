@@ -14,21 +14,33 @@
 #include <math.h>
 
 /* area; scheme vertex.
- * Cost per item: 1 mul or fma, 2 add; 1 accumulators, 4 values alive, depth 2. */
+ * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_FMA void ew_ring_x0y0_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
-			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y2 = y[i + 2];
-			const double width = x1 - cx;
-			const double height = y2 - y0;
-			acc0 = fma(width, height, acc0);
+		double acc1 = sum[8 + lane];
+		for (size_t i = lane; i < count; i += 16) {
+			{
+				const double y0 = y[i];
+				const double x1 = x[i + 1];
+				const double y2 = y[i + 2];
+				const double width = x1 - cx;
+				const double height = y2 - y0;
+				acc0 = fma(width, height, acc0);
+			}
+			if (count - i > 8) {
+				const double y0 = y[i + 8];
+				const double x1 = x[i + 9];
+				const double y2 = y[i + 10];
+				const double width = x1 - cx;
+				const double height = y2 - y0;
+				acc1 = fma(width, height, acc1);
+			}
 		}
 		sum[lane] = acc0;
+		sum[8 + lane] = acc1;
 	}
 }
 

@@ -10,22 +10,35 @@
 #include "edgewise_kernels.h"
 
 /* area; scheme vertex.
- * Cost per item: 1 mul, 3 add; 1 accumulators, 4 values alive, depth 3. */
+ * Cost per item: 1 mul, 3 add; 2 accumulators, 4 values alive, depth 3. */
 void ew_ring_x0y0_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
 	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
-			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y2 = y[i + 2];
-			const double width = x1 - cx;
-			const double height = y2 - y0;
-			const double t0 = width * height;
-			acc0 = acc0 + t0;
+		double acc1 = sum[8 + lane];
+		for (size_t i = lane; i < count; i += 16) {
+			{
+				const double y0 = y[i];
+				const double x1 = x[i + 1];
+				const double y2 = y[i + 2];
+				const double width = x1 - cx;
+				const double height = y2 - y0;
+				const double t0 = width * height;
+				acc0 = acc0 + t0;
+			}
+			if (count - i > 8) {
+				const double y0 = y[i + 8];
+				const double x1 = x[i + 9];
+				const double y2 = y[i + 10];
+				const double width = x1 - cx;
+				const double height = y2 - y0;
+				const double t0 = width * height;
+				acc1 = acc1 + t0;
+			}
 		}
 		sum[lane] = acc0;
+		sum[8 + lane] = acc1;
 	}
 }
 

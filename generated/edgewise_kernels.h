@@ -134,7 +134,7 @@
 /* X(id, family, m, n, accumulators, outputs, k, r): all that runs over rings. For n items in
  * L lanes |result - exact| <= gamma_K W with K = k + r (ceil(n/L) - 1) + log2 L. */
 #define EW_RINGS(X) \
-	X(EW_RING_MOMENTS_0, moments, 0, 0, 1, 1, 4, 1) \
+	X(EW_RING_MOMENTS_0, moments, 0, 0, 2, 1, 5, 1) \
 	X(EW_RING_MOMENTS_1, moments, 1, 0, 3, 3, 7, 1) \
 	X(EW_RING_MOMENTS_2, moments, 2, 0, 6, 6, 31, 1) \
 	X(EW_RING_MOMENTS_3, moments, 3, 0, 15, 10, 46, 1) \
@@ -143,7 +143,7 @@
 	X(EW_RING_MOMENTS_6, moments, 6, 0, 33, 28, 22, 2) \
 	X(EW_RING_MOMENTS_7, moments, 7, 0, 42, 36, 25, 2) \
 	X(EW_RING_MOMENTS_8, moments, 8, 0, 52, 45, 28, 2) \
-	X(EW_RING_X0Y0, monomial, 0, 0, 1, 1, 4, 1) \
+	X(EW_RING_X0Y0, monomial, 0, 0, 2, 1, 5, 1) \
 	X(EW_RING_X1Y0, monomial, 1, 0, 1, 1, 7, 1) \
 	X(EW_RING_X0Y1, monomial, 0, 1, 1, 1, 7, 1) \
 	X(EW_RING_X2Y0, monomial, 2, 0, 1, 1, 9, 1) \
@@ -249,62 +249,62 @@ enum {
 	EW_MAX_OUTPUTS = 45
 };
 
-/* X(id, window, accumulators, outputs, finish): for the ring driver; window counts vertices */
+/* X(id, window, turns, accumulators, outputs, finish): for the ring driver; window counts vertices */
 #define EW_RINGS_SHAPES(X) \
-	X(EW_RING_MOMENTS_0, 3, 1, 1, ew_ring_moments_0_finish) \
-	X(EW_RING_MOMENTS_1, 2, 3, 3, ew_ring_moments_1_finish) \
-	X(EW_RING_MOMENTS_2, 2, 6, 6, ew_ring_moments_2_finish) \
-	X(EW_RING_MOMENTS_3, 2, 15, 10, ew_ring_moments_3_finish) \
-	X(EW_RING_MOMENTS_4, 2, 26, 15, ew_ring_moments_4_finish) \
-	X(EW_RING_MOMENTS_5, 2, 25, 21, ew_ring_moments_5_finish) \
-	X(EW_RING_MOMENTS_6, 2, 33, 28, ew_ring_moments_6_finish) \
-	X(EW_RING_MOMENTS_7, 2, 42, 36, ew_ring_moments_7_finish) \
-	X(EW_RING_MOMENTS_8, 2, 52, 45, ew_ring_moments_8_finish) \
-	X(EW_RING_X0Y0, 3, 1, 1, ew_ring_x0y0_finish) \
-	X(EW_RING_X1Y0, 2, 1, 1, ew_ring_x1y0_finish) \
-	X(EW_RING_X0Y1, 2, 1, 1, ew_ring_x0y1_finish) \
-	X(EW_RING_X2Y0, 2, 1, 1, ew_ring_x2y0_finish) \
-	X(EW_RING_X1Y1, 2, 1, 1, ew_ring_x1y1_finish) \
-	X(EW_RING_X0Y2, 2, 1, 1, ew_ring_x0y2_finish) \
-	X(EW_RING_X3Y0, 2, 1, 1, ew_ring_x3y0_finish) \
-	X(EW_RING_X2Y1, 2, 1, 1, ew_ring_x2y1_finish) \
-	X(EW_RING_X1Y2, 2, 1, 1, ew_ring_x1y2_finish) \
-	X(EW_RING_X0Y3, 2, 1, 1, ew_ring_x0y3_finish) \
-	X(EW_RING_X4Y0, 2, 1, 1, ew_ring_x4y0_finish) \
-	X(EW_RING_X3Y1, 2, 1, 1, ew_ring_x3y1_finish) \
-	X(EW_RING_X2Y2, 2, 1, 1, ew_ring_x2y2_finish) \
-	X(EW_RING_X1Y3, 2, 1, 1, ew_ring_x1y3_finish) \
-	X(EW_RING_X0Y4, 2, 1, 1, ew_ring_x0y4_finish) \
-	X(EW_RING_X5Y0, 2, 1, 1, ew_ring_x5y0_finish) \
-	X(EW_RING_X4Y1, 2, 1, 1, ew_ring_x4y1_finish) \
-	X(EW_RING_X3Y2, 2, 1, 1, ew_ring_x3y2_finish) \
-	X(EW_RING_X2Y3, 2, 1, 1, ew_ring_x2y3_finish) \
-	X(EW_RING_X1Y4, 2, 1, 1, ew_ring_x1y4_finish) \
-	X(EW_RING_X0Y5, 2, 1, 1, ew_ring_x0y5_finish) \
-	X(EW_RING_X6Y0, 2, 1, 1, ew_ring_x6y0_finish) \
-	X(EW_RING_X5Y1, 2, 1, 1, ew_ring_x5y1_finish) \
-	X(EW_RING_X4Y2, 2, 1, 1, ew_ring_x4y2_finish) \
-	X(EW_RING_X3Y3, 2, 1, 1, ew_ring_x3y3_finish) \
-	X(EW_RING_X2Y4, 2, 1, 1, ew_ring_x2y4_finish) \
-	X(EW_RING_X1Y5, 2, 1, 1, ew_ring_x1y5_finish) \
-	X(EW_RING_X0Y6, 2, 1, 1, ew_ring_x0y6_finish) \
-	X(EW_RING_X7Y0, 2, 1, 1, ew_ring_x7y0_finish) \
-	X(EW_RING_X6Y1, 2, 1, 1, ew_ring_x6y1_finish) \
-	X(EW_RING_X5Y2, 2, 1, 1, ew_ring_x5y2_finish) \
-	X(EW_RING_X4Y3, 2, 1, 1, ew_ring_x4y3_finish) \
-	X(EW_RING_X3Y4, 2, 1, 1, ew_ring_x3y4_finish) \
-	X(EW_RING_X2Y5, 2, 1, 1, ew_ring_x2y5_finish) \
-	X(EW_RING_X1Y6, 2, 1, 1, ew_ring_x1y6_finish) \
-	X(EW_RING_X0Y7, 2, 1, 1, ew_ring_x0y7_finish) \
-	X(EW_RING_X8Y0, 2, 1, 1, ew_ring_x8y0_finish) \
-	X(EW_RING_X7Y1, 2, 1, 1, ew_ring_x7y1_finish) \
-	X(EW_RING_X6Y2, 2, 1, 1, ew_ring_x6y2_finish) \
-	X(EW_RING_X5Y3, 2, 1, 1, ew_ring_x5y3_finish) \
-	X(EW_RING_X4Y4, 2, 1, 1, ew_ring_x4y4_finish) \
-	X(EW_RING_X3Y5, 2, 1, 1, ew_ring_x3y5_finish) \
-	X(EW_RING_X2Y6, 2, 1, 1, ew_ring_x2y6_finish) \
-	X(EW_RING_X1Y7, 2, 1, 1, ew_ring_x1y7_finish) \
-	X(EW_RING_X0Y8, 2, 1, 1, ew_ring_x0y8_finish)
+	X(EW_RING_MOMENTS_0, 3, 2, 2, 1, ew_ring_moments_0_finish) \
+	X(EW_RING_MOMENTS_1, 2, 1, 3, 3, ew_ring_moments_1_finish) \
+	X(EW_RING_MOMENTS_2, 2, 1, 6, 6, ew_ring_moments_2_finish) \
+	X(EW_RING_MOMENTS_3, 2, 1, 15, 10, ew_ring_moments_3_finish) \
+	X(EW_RING_MOMENTS_4, 2, 1, 26, 15, ew_ring_moments_4_finish) \
+	X(EW_RING_MOMENTS_5, 2, 1, 25, 21, ew_ring_moments_5_finish) \
+	X(EW_RING_MOMENTS_6, 2, 1, 33, 28, ew_ring_moments_6_finish) \
+	X(EW_RING_MOMENTS_7, 2, 1, 42, 36, ew_ring_moments_7_finish) \
+	X(EW_RING_MOMENTS_8, 2, 1, 52, 45, ew_ring_moments_8_finish) \
+	X(EW_RING_X0Y0, 3, 2, 2, 1, ew_ring_x0y0_finish) \
+	X(EW_RING_X1Y0, 2, 1, 1, 1, ew_ring_x1y0_finish) \
+	X(EW_RING_X0Y1, 2, 1, 1, 1, ew_ring_x0y1_finish) \
+	X(EW_RING_X2Y0, 2, 1, 1, 1, ew_ring_x2y0_finish) \
+	X(EW_RING_X1Y1, 2, 1, 1, 1, ew_ring_x1y1_finish) \
+	X(EW_RING_X0Y2, 2, 1, 1, 1, ew_ring_x0y2_finish) \
+	X(EW_RING_X3Y0, 2, 1, 1, 1, ew_ring_x3y0_finish) \
+	X(EW_RING_X2Y1, 2, 1, 1, 1, ew_ring_x2y1_finish) \
+	X(EW_RING_X1Y2, 2, 1, 1, 1, ew_ring_x1y2_finish) \
+	X(EW_RING_X0Y3, 2, 1, 1, 1, ew_ring_x0y3_finish) \
+	X(EW_RING_X4Y0, 2, 1, 1, 1, ew_ring_x4y0_finish) \
+	X(EW_RING_X3Y1, 2, 1, 1, 1, ew_ring_x3y1_finish) \
+	X(EW_RING_X2Y2, 2, 1, 1, 1, ew_ring_x2y2_finish) \
+	X(EW_RING_X1Y3, 2, 1, 1, 1, ew_ring_x1y3_finish) \
+	X(EW_RING_X0Y4, 2, 1, 1, 1, ew_ring_x0y4_finish) \
+	X(EW_RING_X5Y0, 2, 1, 1, 1, ew_ring_x5y0_finish) \
+	X(EW_RING_X4Y1, 2, 1, 1, 1, ew_ring_x4y1_finish) \
+	X(EW_RING_X3Y2, 2, 1, 1, 1, ew_ring_x3y2_finish) \
+	X(EW_RING_X2Y3, 2, 1, 1, 1, ew_ring_x2y3_finish) \
+	X(EW_RING_X1Y4, 2, 1, 1, 1, ew_ring_x1y4_finish) \
+	X(EW_RING_X0Y5, 2, 1, 1, 1, ew_ring_x0y5_finish) \
+	X(EW_RING_X6Y0, 2, 1, 1, 1, ew_ring_x6y0_finish) \
+	X(EW_RING_X5Y1, 2, 1, 1, 1, ew_ring_x5y1_finish) \
+	X(EW_RING_X4Y2, 2, 1, 1, 1, ew_ring_x4y2_finish) \
+	X(EW_RING_X3Y3, 2, 1, 1, 1, ew_ring_x3y3_finish) \
+	X(EW_RING_X2Y4, 2, 1, 1, 1, ew_ring_x2y4_finish) \
+	X(EW_RING_X1Y5, 2, 1, 1, 1, ew_ring_x1y5_finish) \
+	X(EW_RING_X0Y6, 2, 1, 1, 1, ew_ring_x0y6_finish) \
+	X(EW_RING_X7Y0, 2, 1, 1, 1, ew_ring_x7y0_finish) \
+	X(EW_RING_X6Y1, 2, 1, 1, 1, ew_ring_x6y1_finish) \
+	X(EW_RING_X5Y2, 2, 1, 1, 1, ew_ring_x5y2_finish) \
+	X(EW_RING_X4Y3, 2, 1, 1, 1, ew_ring_x4y3_finish) \
+	X(EW_RING_X3Y4, 2, 1, 1, 1, ew_ring_x3y4_finish) \
+	X(EW_RING_X2Y5, 2, 1, 1, 1, ew_ring_x2y5_finish) \
+	X(EW_RING_X1Y6, 2, 1, 1, 1, ew_ring_x1y6_finish) \
+	X(EW_RING_X0Y7, 2, 1, 1, 1, ew_ring_x0y7_finish) \
+	X(EW_RING_X8Y0, 2, 1, 1, 1, ew_ring_x8y0_finish) \
+	X(EW_RING_X7Y1, 2, 1, 1, 1, ew_ring_x7y1_finish) \
+	X(EW_RING_X6Y2, 2, 1, 1, 1, ew_ring_x6y2_finish) \
+	X(EW_RING_X5Y3, 2, 1, 1, 1, ew_ring_x5y3_finish) \
+	X(EW_RING_X4Y4, 2, 1, 1, 1, ew_ring_x4y4_finish) \
+	X(EW_RING_X3Y5, 2, 1, 1, 1, ew_ring_x3y5_finish) \
+	X(EW_RING_X2Y6, 2, 1, 1, 1, ew_ring_x2y6_finish) \
+	X(EW_RING_X1Y7, 2, 1, 1, 1, ew_ring_x1y7_finish) \
+	X(EW_RING_X0Y8, 2, 1, 1, 1, ew_ring_x0y8_finish)
 
 /* X(m, n, id): single moments */
 #define EW_HAS_MONOMIALS 1
@@ -599,7 +599,7 @@ typedef void ew_ring_run(const double *x, const double *y, double cx, size_t cou
 typedef void ew_ring_runf(const float *x, const float *y, float cx, size_t count, float *sum);
 typedef void ew_ring_finish(const double *sum, double *out);
 
-#define EW_DECLARE(id, window, accumulators, outputs, finish) ew_ring_finish finish;
+#define EW_DECLARE(id, window, turns, accumulators, outputs, finish) ew_ring_finish finish;
 EW_RINGS_SHAPES(EW_DECLARE)
 #undef EW_DECLARE
 #define EW_DECLARE(id, kernel, f, a) ew_ring_run kernel;

@@ -14,21 +14,33 @@
 #include <math.h>
 
 /* area; scheme vertex.
- * Cost per item: 1 mul or fma, 2 add; 1 accumulators, 4 values alive, depth 2. */
+ * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_0f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
 		float acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 16) {
-			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y2 = y[i + 2];
-			const float width = x1 - cx;
-			const float height = y2 - y0;
-			acc0 = fmaf(width, height, acc0);
+		float acc1 = sum[16 + lane];
+		for (size_t i = lane; i < count; i += 32) {
+			{
+				const float y0 = y[i];
+				const float x1 = x[i + 1];
+				const float y2 = y[i + 2];
+				const float width = x1 - cx;
+				const float height = y2 - y0;
+				acc0 = fmaf(width, height, acc0);
+			}
+			if (count - i > 16) {
+				const float y0 = y[i + 16];
+				const float x1 = x[i + 17];
+				const float y2 = y[i + 18];
+				const float width = x1 - cx;
+				const float height = y2 - y0;
+				acc1 = fmaf(width, height, acc1);
+			}
 		}
 		sum[lane] = acc0;
+		sum[16 + lane] = acc1;
 	}
 }
 

@@ -10,22 +10,35 @@
 #include "edgewise_kernels.h"
 
 /* area; scheme vertex.
- * Cost per item: 1 mul, 3 add; 1 accumulators, 4 values alive, depth 3. */
+ * Cost per item: 1 mul, 3 add; 2 accumulators, 4 values alive, depth 3. */
 void ew_ring_moments_0f_portable(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
 	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
 		float acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 16) {
-			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y2 = y[i + 2];
-			const float width = x1 - cx;
-			const float height = y2 - y0;
-			const float t0 = width * height;
-			acc0 = acc0 + t0;
+		float acc1 = sum[16 + lane];
+		for (size_t i = lane; i < count; i += 32) {
+			{
+				const float y0 = y[i];
+				const float x1 = x[i + 1];
+				const float y2 = y[i + 2];
+				const float width = x1 - cx;
+				const float height = y2 - y0;
+				const float t0 = width * height;
+				acc0 = acc0 + t0;
+			}
+			if (count - i > 16) {
+				const float y0 = y[i + 16];
+				const float x1 = x[i + 17];
+				const float y2 = y[i + 18];
+				const float width = x1 - cx;
+				const float height = y2 - y0;
+				const float t0 = width * height;
+				acc1 = acc1 + t0;
+			}
 		}
 		sum[lane] = acc0;
+		sum[16 + lane] = acc1;
 	}
 }
 

@@ -6,10 +6,10 @@
 
 #include <math.h>
 
-typedef struct { int window, accumulators, outputs; ew_ring_finish *finish; } ew_ring_shape;
+typedef struct { int window, turns, accumulators, outputs; ew_ring_finish *finish; } ew_ring_shape;
 
-#define EW_SHAPE(id, window, accumulators, outputs, finish) \
-	{ window, accumulators, outputs, finish },
+#define EW_SHAPE(id, window, turns, accumulators, outputs, finish) \
+	{ window, turns, accumulators, outputs, finish },
 static const ew_ring_shape ew_ring_shapes[] = { EW_RINGS_SHAPES(EW_SHAPE) };
 #undef EW_SHAPE
 

@@ -70,8 +70,9 @@ static void EW_LOCAL(run_ring)(int id, const EW_LOCAL(vertices) *v, double *tota
 	const ew_ring_shape *shape = &ew_ring_shapes[id];
 	const size_t cells = (size_t)shape->accumulators * EW_WIDTH;
 	const size_t reach = (size_t)shape->window - 1, items = v->n + 1 - reach;
+	const size_t step = (size_t)shape->turns * EW_WIDTH;
 	const size_t direct = v->moved || v->stride != 1 || v->n < reach ? 0
-		: (v->n - reach) / EW_WIDTH * EW_WIDTH;
+		: (v->n - reach) / step * step;
 	EW_RUN *run = EW_LOCAL(kernel)(id);
 	EW_REAL sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
 	double wide[EW_MAX_ACCUMULATORS * EW_WIDTH];

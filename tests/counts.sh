@@ -117,7 +117,8 @@ FNR == 1 {
 	body = ""
 	next
 }
-/^\t\tfor \(size_t i = / { inside = 1; body = ""; next }
+/^\t\tfor \(size_t i = / { inside = 1; first = 1; body = ""; next }
+/^\t\t\tif \(count - i > / { first = 0 }               # the next item of the lane: the same again
 inside == 1 && /^\t\t}/ {
 	ring = target = kernel
 	sub(/.*_/, "", target)
@@ -134,7 +135,7 @@ inside == 2 && /^}/ {
 	check_edge(kernel, edge)
 	inside = 0
 }
-inside && !/ = [xy]\[i/ { body = body $0 }
+inside && (first || inside == 2) && !/ = [xy]\[i/ { body = body $0 }
 
 END {
 	close_file()

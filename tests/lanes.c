@@ -5,8 +5,9 @@
  * own and starts again from 0. At the end lanes l and l + L/2 are added, then l and l + L/4, down
  * to one; that sum is scaled in double and rounded to the precision.
  *
- *     area      item j is vertex i = j+1 < n:
- *               lane = fma(x_i - x_0, y_(i+1) - y_(i-1), lane);  1/2
+ *     area      item j is vertex i = j+1 < n, and j / L mod 2 says which of two sets of lanes
+ *               takes it: lane = fma(x_i - x_0, y_(i+1) - y_(i-1), lane); the sums of the two sets
+ *               are added;  1/2
  *     degree 1  item j is the edge from vertex j, s = x0 y1 - x1 y0 (three roundings):
  *               lane += s;  1/2     lane = fma(s, x0 + x1, lane);  1/6     and the same with y
  *
@@ -18,13 +19,14 @@ enum { LANES = 8, LANES_FLOAT = 16, FLUSH = 64 };
 
 typedef struct {
 	int lanes, items;               /* items so far */
+	int flush;                      /* items of a float lane between two flushes */
 	bool narrow;
 	double lane[LANES_FLOAT], wide[LANES_FLOAT];
 } Sum;
 
-static Sum sum_new(bool narrow)
+static Sum sum_new(bool narrow, int turns)
 {
-	return (Sum){ narrow ? LANES_FLOAT : LANES, 0, narrow, { 0 }, { 0 } };
+	return (Sum){ narrow ? LANES_FLOAT : LANES, 0, FLUSH / turns, narrow, { 0 }, { 0 } };
 }
 
 static void sum_flush(Sum *sum)
@@ -41,19 +43,18 @@ static void sum_add(Sum *sum, double a, double b)
 	double *lane = &sum->lane[sum->items % sum->lanes];
 	*lane = sum->narrow ? (double)fmaf((float)a, (float)b, (float)*lane) : fma(a, b, *lane);
 	sum->items++;
-	if (sum->narrow && sum->items % (FLUSH * sum->lanes) == 0)
+	if (sum->narrow && sum->items % (sum->flush * sum->lanes) == 0)
 		sum_flush(sum);
 }
 
-static double sum_total(Sum *sum, double factor)
+static double sum_total(Sum *sum)
 {
 	sum_flush(sum);
 	for (int half = sum->lanes / 2; half > 0; half /= 2) {
 		for (int l = 0; l < half; l++)
 			sum->wide[l] += sum->wide[l + half];
 	}
-	const double total = sum->wide[0] * factor;
-	return sum->narrow ? (double)(float)total : total;
+	return sum->wide[0];
 }
 
 /* One rounded operation, which no compiler can contract with another. For floats, double holds the
@@ -73,19 +74,21 @@ static double times(const Api *api, double a, double b)
 
 static double defined_area(const Api *api, const Ring *ring)
 {
-	Sum sum = sum_new(api->bits == 24);
+	const bool narrow = api->bits == 24;
+	Sum sum[2] = { sum_new(narrow, 2), sum_new(narrow, 2) };
 	for (size_t j = 0; j + 1 < ring->n; j++) {
 		const size_t next = j + 2 < ring->n ? j + 2 : 0;
-		sum_add(&sum, plus(api, ring->x[j + 1], -ring->x[0]),
+		sum_add(&sum[j / (size_t)sum->lanes % 2], plus(api, ring->x[j + 1], -ring->x[0]),
 			plus(api, ring->y[next], -ring->y[j]));
 	}
-	return sum_total(&sum, 0.5);
+	const double first = sum_total(&sum[0]), second = sum_total(&sum[1]);
+	return round_to(api->bits, (first + second) * 0.5);
 }
 
 static void defined_moments(const Api *api, const Ring *ring, double out[3])
 {
 	const bool narrow = api->bits == 24;
-	Sum area = sum_new(narrow), x = sum_new(narrow), y = sum_new(narrow);
+	Sum area = sum_new(narrow, 1), x = sum_new(narrow, 1), y = sum_new(narrow, 1);
 	for (size_t j = 0; j < ring->n; j++) {
 		const size_t next = j + 1 < ring->n ? j + 1 : 0;
 		const double x0 = ring->x[j], y0 = ring->y[j];
@@ -95,9 +98,9 @@ static void defined_moments(const Api *api, const Ring *ring, double out[3])
 		sum_add(&x, s, plus(api, x0, x1));
 		sum_add(&y, s, plus(api, y0, y1));
 	}
-	out[0] = sum_total(&area, 0.5);
-	out[1] = sum_total(&x, 1.0 / 6);
-	out[2] = sum_total(&y, 1.0 / 6);
+	out[0] = round_to(api->bits, sum_total(&area) * 0.5);
+	out[1] = round_to(api->bits, sum_total(&x) * (1.0 / 6));
+	out[2] = round_to(api->bits, sum_total(&y) * (1.0 / 6));
 }
 
 static Ring lane_ring(const Api *api, size_t n)
