@@ -154,7 +154,8 @@ Text bundle_single_header(const Files *files, const Request *request)
 		"the rest of its file. */\n",
 		header, upper);
 	expand(&text, files, find_file(files, header, strlen(header)), done);
-	text_add(&text, "\n#ifdef %sIMPLEMENTATION\n", upper);
+	text_add(&text, "\n#if defined(%sIMPLEMENTATION) && !defined(%sIMPLEMENTED)\n"
+		"#define %sIMPLEMENTED\n", upper, upper, upper);
 	for (int i = 0; i < files->count; ++i)
 		if (strcmp(files->file[i].name + strlen(files->file[i].name) - 2, ".c") == 0)
 			expand(&text, files, &files->file[i], done);

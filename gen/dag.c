@@ -186,6 +186,9 @@ Ref dag_name(Dag *dag, Ref a, const char *name)
 
 void dag_out(Dag *dag, Ref root)
 {
+	for (int k = 0; k < dag->outs; ++k)
+		if (dag->out[k] == root)
+			bug("two outputs are one node");
 	Ref *out = allocate((size_t)(dag->outs + 1) * sizeof *out);
 	memcpy(out, dag->out, (size_t)dag->outs * sizeof *out);
 	out[dag->outs++] = root;

@@ -4,8 +4,8 @@
  * beside its place, and only when all of them are complete they are renamed. So a failure leaves
  * the folder as it was, unchanged files keep their time, and readers never see half a file.
  * The manifest in the folder names what gen wrote there: a later run removes files of its own that
- * it no longer writes, if nobody changed them, and touches nothing else. A file that gen did not
- * write is never overwritten. Devices and pipes are written in place, before any rename. */
+ * it no longer writes, if nobody changed them, and touches nothing else. A file in the folder that
+ * gen did not write is never overwritten; a FILE named on the command line is. Devices and pipes are written in place, before any rename. */
 #include "gen.h"
 
 #include <errno.h>
@@ -171,15 +171,19 @@ static int same_file(const char *a, const char *b)
 		&& left.st_dev == right.st_dev && left.st_ino == right.st_ino;
 }
 
+static void refuse_collision(const Plan *plan, int first, int second)
+{
+	fatal(EXIT_USAGE, "%s and %s are one file; give each output a name of its own",
+		plan->output[first].path, plan->output[second].path);
+}
+
 static void refuse_collisions(const Plan *plan)
 {
 	for (int i = 0; i < plan->outputs; ++i)
-		for (int j = 0; j < i; ++j) {
-			const char *first = plan->output[j].path, *second = plan->output[i].path;
-			if (plan->output[i].state != DEVICE && same_file(second, first))
-				fatal(EXIT_USAGE, "%s and %s are one file; "
-					"give each output a name of its own", first, second);
-		}
+		for (int j = 0; j < i; ++j)
+			if (plan->output[i].state != DEVICE
+			    && same_file(plan->output[i].path, plan->output[j].path))
+				refuse_collision(plan, j, i);
 }
 
 static void plan_output(Plan *plan, const char *path, const Text *text, int overwrite)
@@ -238,11 +242,38 @@ static void give_up(const Plan *plan, int written, const char *what, const char 
 	fatal(EXIT_DIFFERENT, "cannot %s %s: %s; %s", what, path, strerror(error), consequence);
 }
 
+/* Where a path leads, now that all directories exist: symbolic links and .. cannot hide it. */
+static char *whereabouts(const char *path)
+{
+	const char *slash = strrchr(path, '/');
+	char *directory = slash ? copy_string(path, (size_t)(slash - path) + 1) : format(".");
+	struct stat info = { 0 };
+	stat(directory, &info);
+	return format("%llu:%llu/%s", (unsigned long long)info.st_dev, (unsigned long long)info.st_ino,
+		slash ? slash + 1 : path);
+}
+
+static void refuse_hidden_collisions(const Plan *plan)
+{
+	char **place = allocate((size_t)plan->outputs * sizeof *place);
+	for (int i = 0; i < plan->outputs; ++i) {
+		place[i] = plan->output[i].state == DEVICE ? format("%d", i)
+			: whereabouts(plan->output[i].path);
+		for (int j = 0; j < i; ++j)
+			if (strcmp(place[i], place[j]) == 0) {
+				if (plan->directory)
+					rmdir(plan->directory);
+				refuse_collision(plan, j, i);
+			}
+	}
+}
+
 static void write_all(const Plan *plan)
 {
 	if (plan->directory && mkdir(plan->directory, 0777) != 0)
 		fatal(EXIT_DIFFERENT, "cannot make directory %s: %s", plan->directory,
 			strerror(errno));
+	refuse_hidden_collisions(plan);
 	for (int i = 0; i < plan->outputs; ++i) {
 		const Output *output = &plan->output[i];
 		if (output->state == SAME)

@@ -162,6 +162,9 @@ static char *operand(const Printer *printer, Ref ref, int parent)
 	const Node *node = &printer->program->dag->node[ref];
 	char *text = expression(printer, ref, 0);
 	int is_operation = op_operands(node->op) > 0 && !printer->name[ref];
+	int is_negative = node->op == OP_CONST && rat_sign(node->value) < 0;
+	if (parent == OP_FMS && (is_operation || is_negative))   /* a minus may stand before it */
+		return format("(%s)", text);
 	if (!is_operation || op_operands(parent) == 3 || (node->op == OP_MUL && parent != OP_MUL))
 		return text;
 	return format("(%s)", text);

@@ -110,20 +110,29 @@ void emit_edge(Text *text, const Edge *edge, const Precision *precision)
 	arena_release(mark);
 }
 
+static Text *open_file(Files *files, const Request *request, const Precision *precision, int part)
+{
+	const char *stem = format("edgewise_line%s", precision->suffix);
+	const char *name = part > 1 ? format("%s_%d.c", stem, part) : format("%s.c", stem);
+	Text *text = file_new(files, name);
+	emit_banner(text, name, format("contribution of one line edge to an integral, %s",
+		precision->real), request);
+	text_add(text, "\n#include \"edgewise.h\"\n#include \"edgewise_kernels.h\"\n");
+	return text;
+}
+
 void emit_edges(Files *files, const Request *request, const Kernels *kernels)
 {
 	for (int i = 0; i < precision_count; ++i) {
-		const Precision *precision = &precisions[i];
-		if (!(request->precisions & precision->bit))
+		if (!(request->precisions & precisions[i].bit))
 			continue;
-		const char *name = format("edgewise_line%s.c", precision->suffix);
-		Text *text = file_new(files, name);
-		emit_banner(text, name, format("contribution of one line edge to an integral, %s",
-			precision->real), request);
-		text_add(text, "\n#include \"edgewise.h\"\n#include \"edgewise_kernels.h\"\n");
+		int part = 1;
+		Text *text = open_file(files, request, &precisions[i], part);
 		for (int k = 0; k < kernels->edges; ++k) {
+			if (text->size > FILE_SIZE)
+				text = open_file(files, request, &precisions[i], ++part);
 			text_add(text, "\n");
-			emit_edge(text, &kernels->edge[k], precision);
+			emit_edge(text, &kernels->edge[k], &precisions[i]);
 		}
 	}
 }

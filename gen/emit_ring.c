@@ -9,8 +9,6 @@
  * for the vertex form, vertex i+1 between its neighbours. */
 #include "gen.h"
 
-enum { FILE_SIZE = 120000 };   /* start another file beyond it: nobody reviews more */
-
 static char *describe(const Ring *ring)
 {
 	if (ring->n == 0 && ring->outputs > 1)

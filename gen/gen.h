@@ -220,6 +220,14 @@ Poly next_group(Poly sorted, int *from, const int *vars);
 Ref  grouped(Dag *dag, const Leaves *leaves, Poly density, const int *outer);
 Ref  horner(Dag *dag, Poly a, int var);
 
+/* ---- bound.c: how far rounding can carry a program off -------------------------------------- */
+
+enum { WORTHLESS = 1 << 20 };                /* the largest k; no scheme so bad is taken */
+typedef struct { int k; int repeat; } Bound; /* error <= gamma_k W; repeat: roundings per item */
+
+Bound  bound_edge(const Dag *dag, const Integral *want);
+Bound *bound_ring(const Dag *dag, const Dag *finish, const Integral *want, int count);
+
 /* ---- moments.c: schemes for all moments to a degree ------------------------------------------ */
 
 Dag *moments_shared(void);                   /* degree 2 */
@@ -252,16 +260,13 @@ typedef struct {
 Program schedule(const Dag *dag);
 void program_dump(Text *text, const Program *program);
 
-/* ---- proof.c: the always-on checks and the error bound --------------------------------------- */
+/* ---- proof.c: the always-on checks --------------------------------------- */
 
 /* error <= gamma_k W; repeat: roundings per further item */
-typedef struct { int k; int repeat; } Bound;
 
 void   prove_dag(const Dag *dag, const Integral *want, int count, const char *pass);
 void   prove_program(const Program *program, const Integral *want, int count);
 void   prove_finish(const Program *finish, const Dag *ring);
-Bound  bound_edge(const Dag *dag, const Integral *want);
-Bound *bound_ring(const Dag *dag, const Integral *want, int count);   /* one per output */
 
 /* ---- kernel.c: the list of kernels of a request, built and proven ---------------------------- */
 
@@ -317,6 +322,7 @@ typedef struct {                             /* how a program is written */
 	const char *accumulator, *output;    /* patterns: "acc%d", "acc%d = " */
 } Style;
 
+enum { FILE_SIZE = 120000 };                 /* start another file: nobody reviews more */
 Text *file_new(Files *files, const char *name);
 void emit_banner(Text *text, const char *name, const char *purpose, const Request *request);
 void emit_wrapped(Text *text, const char *start, const char *margin, const char *words);

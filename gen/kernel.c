@@ -87,9 +87,10 @@ static void build_ring(Ring *ring, const Integral *want, int moments, const Dump
 	prove_dag(fused, want, ring->outputs, "fuse");
 	ring->portable = scheduled(dump, ring->name, "portable", dag, want, ring->outputs);
 	ring->fused = scheduled(dump, ring->name, "fma", fused, want, ring->outputs);
-	ring->finish = schedule(scheme_finish(dag));
+	Dag *finish = scheme_finish(dag);
+	ring->finish = schedule(finish);
 	prove_finish(&ring->finish, dag);
-	ring->bound = bound_ring(dag, want, ring->outputs);
+	ring->bound = bound_ring(dag, finish, want, ring->outputs);
 	for (int j = 0; j < ring->outputs; ++j)
 		worsen(&ring->worst, ring->bound[j]);
 	ring->accumulators = dag->outs * dag->turns;

@@ -3,7 +3,8 @@
  * Single edges use the coefficient matrix, with mirrored terms added in pairs, so that swapping
  * the two ends of the edge negates the result bit for bit. Rings add up products in accumulators;
  * several schemes apply to one request, each builds a DAG, and the cheapest one by an integer cost
- * is taken. For all moments they stand in moments.c; for one integrand they are
+ * is taken, unless its error bound is too weak. For all moments they stand in moments.c; for one
+ * integrand they are
  *
  *   matrix      powers of x times an integer matrix times powers of y (Steger 1996),
  *               shared products
@@ -14,6 +15,8 @@
 #include "gen.h"
 
 enum { FMA_WEIGHT = 4, ADD_WEIGHT = 1 };   /* additions have a pipe of their own on most machines */
+enum { WORST_BOUND = 512, DEAR = 1 << 30 };   /* k: at most 9 bits lost in the worst case */
+enum { EVEN_DEGREE = 6 };                  /* beyond it even powers cancel too much anyway */
 enum { FEW_TERMS = 24 };                   /* try normalisations of a density up to this size */
 
 const char *const *scheme_names(void)
@@ -148,6 +151,18 @@ static Dag *vertex_form(Rat value)
 
 enum { MATRIX_X, MATRIX_Y, HORNER, EVEN_X, EVEN_Y, WAYS };
 
+static int total_degree(Poly a)
+{
+	int degree = 0;
+	for (int i = 0; i < a.count; ++i) {
+		int d = 0;
+		for (int var = VAR_X0; var <= VAR_Y1; ++var)
+			d += mono_power(a.term[i].mono, var);
+		degree = d > degree ? d : degree;
+	}
+	return degree;
+}
+
 /* Density in a = p0 + p1, e = p1 - p0 (named x0, x1) and b, f (named y0, y1). */
 static Poly even_density(Poly density)
 {
@@ -183,28 +198,33 @@ static Dag *single(Poly density, int way, Rat unit)
 	return dag;
 }
 
-/* Cost as it will be after fusion; all that was built for the estimate is freed. */
-static int single_cost(Poly density, int way, Rat unit)
+/* Cost as it will be after fusion, or DEAR if rounding errors could grow too far; all that was
+ * built for the estimate is freed. */
+static int single_cost(const Integral *want, Poly density, int way, Rat unit, int best)
 {
 	Mark mark = arena_mark();
-	int cost = dag_cost(fuse(single(density, way, unit)));
+	const Dag *dag = single(density, way, unit);
+	int cost = dag_cost(fuse(dag));
+	if (cost < best && bound_ring(dag, scheme_finish(dag), want, 1)[0].k > WORST_BOUND)
+		cost = DEAR;
 	arena_release(mark);
 	return cost;
 }
 
 static Dag *best_single(const Integral *want)
 {
-	Poly forms[2] = { want->density, even_density(want->density) };
-	int best_way = 0, best_cost = 0;
-	Rat best_unit = { 0, 1 };
-	for (int way = 0; way < WAYS; ++way) {
+	const int ways = total_degree(want->density) <= EVEN_DEGREE ? WAYS : EVEN_X;
+	Poly forms[2] = { want->density, ways == WAYS ? even_density(want->density) : poly_zero() };
+	int best_way = MATRIX_X, best_cost = DEAR;
+	Rat best_unit = poly_content(want->density);
+	for (int way = 0; way < ways; ++way) {
 		Poly density = forms[way >= EVEN_X];
 		Rat content = poly_content(density);
 		int tries = density.count <= FEW_TERMS ? density.count : 0;
 		for (int i = -1; i < tries; ++i) {
 			Rat unit = i < 0 ? content : density.term[i].coef;
-			int cost = single_cost(density, way, unit);
-			if (best_unit.num != 0 && cost >= best_cost)
+			int cost = single_cost(want, density, way, unit, best_cost);
+			if (cost >= best_cost)
 				continue;
 			best_way = way;
 			best_cost = cost;

@@ -304,7 +304,8 @@ Integrand spec_polynomial(const char *text)
 	size_t size = strlen(name);
 	char *stem = copy_string(name, name[size - 1] == 'f' ? size - 1 : size);
 	static const char *const families[] = {
-		"line_", "quad_", "conic_", "cubic_", "ring_", "filter_", "cpu_"
+		"line_", "quad_", "conic_", "cubic_", "ring_", "filter_", "cpu_", "moments_", "ew_",
+		"edgewise"
 	};
 	int taken = is_listed(LIBRARY, name) || is_listed(LIBRARY, stem) || is_monomial_name(name);
 	for (int i = 0; i < LENGTH(families); ++i)

@@ -14,6 +14,10 @@
  * clockwise and subtract, a self-overlapping region is weighted by its winding number: add up
  * what the rings of a region return.
  *
+ * Bounds hold unless a product underflows: |coordinate|^(degree + 2) should be a normal number.
+ * Sums are formed before the rational factor of a moment is applied, so they overflow when
+ * (m+n+2)!/(m! n!) times the result would.
+ *
  * A ring is n vertices (x[i], y[i]); the edge from the last to the first is implied, and a ring
  * that repeats its first vertex at the end is fine: a repeated vertex contributes exactly 0. n
  * of 0, 1 or 2 gives 0. NaN or infinity in gives NaN or infinity out. Inputs are never changed,
@@ -57,15 +61,15 @@ extern "C" {
 /* All moments M_mn = integral of x^m y^n over the region inside one ring, m + n <= degree, about
  * (0,0). out[EW_INDEX(m, n)] = M_mn, EW_MOMENTS(degree) values; unit: coordinate^(m+n+2).
  * EW_BAD_DEGREE leaves out untouched. Error: gamma_K times the same sum with every term
- * positive, K = k + r (ceil(n/8) - 1) + 3 with k, r of the manifest (float: 16 lanes, flushed to
- * double every 1024 edges, so K does not grow with n). Far from the origin the terms are large
- * and cancel: use ew_moments_about or ew_central_moments there. Source: Green's theorem; Steger
- * 1996. */
+ * positive, K = k + r (ceil(n/8) - 1) + 3, k and r ("repeat") from the manifest (float: at most
+ * k + 63 r + 5, because 16 lanes are flushed to double every 1024 edges); degree 0 is computed
+ * and bounded as ew_area. Far from the origin the terms are large and cancel: use
+ * ew_moments_about or ew_central_moments there. Source: Green's theorem; Steger 1996. */
 int ew_moments(int degree, const double *x, const double *y, size_t n, double *out);
 int ew_momentsf(int degree, const float *x, const float *y, size_t n, float *out);
 
 /* The same about (cx,cy): the integral of (x-cx)^m (y-cy)^n. Each vertex is moved first, rounded
- * once. */
+ * once. Error: gamma_(K + degree + 2) times the positive sum of the moved vertices. */
 int ew_moments_about(int degree, const double *x, const double *y, size_t n, double cx, double cy,
 	double *out);
 int ew_moments_aboutf(int degree, const float *x, const float *y, size_t n, float cx, float cy,
@@ -81,13 +85,14 @@ int ew_moments_xyf(int degree, const float *xy, size_t n, float *out);
 int ew_translate_moments(int degree, const double *in, double dx, double dy, double *out);
 int ew_translate_momentsf(int degree, const float *in, float dx, float dy, float *out);
 
-/* One moment about (0,0): cheaper than all. NaN if x^m y^n was not emitted. Error as ew_moments. */
+/* One moment about (0,0): cheaper than all. NaN if x^m y^n was not emitted. Error as ew_moments,
+ * with the k of its own row of the manifest. */
 double ew_moment(int m, int n_, const double *x, const double *y, size_t n);
 float ew_momentf(int m, int n_, const float *x, const float *y, size_t n);
 
 /* Area, about the first vertex: 1/2 sum (x_i - x_0)(y_(i+1) - y_(i-1)); counterclockwise is
- * positive. Error: gamma_(4 + ceil(n/8) + 2) sum 1/2 |x_i - x_0| |y_(i+1) - y_(i-1)|, wherever
- * the ring lies. */
+ * positive. Error: gamma_(7 + ceil(n/8)) (float: gamma_73) times sum 1/2 |x_i - x_0| |y_(i+1) -
+ * y_(i-1)|, wherever the ring lies. */
 double ew_area(const double *x, const double *y, size_t n);
 float ew_areaf(const float *x, const float *y, size_t n);
 
@@ -99,7 +104,8 @@ int ew_centroidf(const float *x, const float *y, size_t n, float c[2]);
 
 /* Centroid and all moments about it; out[1] = out[2] = 0. Computed about the first vertex, then
  * about the centroid, so nothing cancels far from the origin. If the area is 0: EW_ZERO_AREA, c
- * and out are NaN. */
+ * and out are NaN. Error: gamma_(K + 4 degree + 24) times the sum with every term positive,
+ * about the centroid or about the first vertex, whichever is larger. */
 int ew_central_moments(int degree, const double *x, const double *y, size_t n, double c[2],
 	double *out);
 int ew_central_momentsf(int degree, const float *x, const float *y, size_t n, float c[2],

@@ -485,37 +485,37 @@ void ew_ring_x7y0_finish(const double *sum, double *out)
 /* integral of x^6 y^1 */
 void ew_ring_x6y1_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.0410410410410p-13 /* 1/8064 */ * sum[0];
+	out[0] = 0x1.0410410410410p-9 /* 1/504 */ * sum[0];
 }
 
 /* integral of x^5 y^2 */
 void ew_ring_x5y2_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.7b425ed097b42p-9 /* 5/1728 */ * sum[0];
+	out[0] = 0x1.0410410410410p-8 /* 1/252 */ * sum[0];
 }
 
 /* integral of x^4 y^3 */
 void ew_ring_x4y3_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.c71c71c71c71cp-11 /* 1/1152 */ * sum[0];
+	out[0] = 0x1.0410410410410p-7 /* 1/126 */ * sum[0];
 }
 
 /* integral of x^3 y^4 */
 void ew_ring_x3y4_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.c71c71c71c71cp-11 /* 1/1152 */ * sum[0];
+	out[0] = 0x1.0410410410410p-7 /* 1/126 */ * sum[0];
 }
 
 /* integral of x^2 y^5 */
 void ew_ring_x2y5_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.7b425ed097b42p-9 /* 5/1728 */ * sum[0];
+	out[0] = 0x1.b1706c5c1b170p-8 /* 5/756 */ * sum[0];
 }
 
 /* integral of x^1 y^6 */
 void ew_ring_x1y6_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.0410410410410p-13 /* 1/8064 */ * sum[0];
+	out[0] = 0x1.0410410410410p-9 /* 1/504 */ * sum[0];
 }
 
 /* integral of x^0 y^7 */
@@ -533,43 +533,43 @@ void ew_ring_x8y0_finish(const double *sum, double *out)
 /* integral of x^7 y^1 */
 void ew_ring_x7y1_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.6666666666666p-9 /* 7/2560 */ * sum[0];
+	out[0] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * sum[0];
 }
 
 /* integral of x^6 y^2 */
 void ew_ring_x6y2_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.3333333333333p-10 /* 3/2560 */ * sum[0];
+	out[0] = 0x1.8618618618618p-8 /* 1/168 */ * sum[0];
 }
 
 /* integral of x^5 y^3 */
 void ew_ring_x5y3_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.999999999999ap-12 /* 1/2560 */ * sum[0];
+	out[0] = 0x1.8618618618618p-8 /* 1/168 */ * sum[0];
 }
 
 /* integral of x^4 y^4 */
 void ew_ring_x4y4_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.999999999999ap-11 /* 1/1280 */ * sum[0];
+	out[0] = 0x1.4ce19ae67b348p-13 /* 1/6300 */ * sum[0];
 }
 
 /* integral of x^3 y^5 */
 void ew_ring_x3y5_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.999999999999ap-12 /* 1/2560 */ * sum[0];
+	out[0] = 0x1.8618618618618p-8 /* 1/168 */ * sum[0];
 }
 
 /* integral of x^2 y^6 */
 void ew_ring_x2y6_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.3333333333333p-10 /* 3/2560 */ * sum[0];
+	out[0] = 0x1.8618618618618p-8 /* 1/168 */ * sum[0];
 }
 
 /* integral of x^1 y^7 */
 void ew_ring_x1y7_finish(const double *sum, double *out)
 {
-	out[0] = 0x1.6666666666666p-9 /* 7/2560 */ * sum[0];
+	out[0] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * sum[0];
 }
 
 /* integral of x^0 y^8 */

@@ -997,8 +997,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y0_fma(
 	}
 }
 
-/* integral of x^6 y^1; scheme even-power.
- * Cost per item: 24 mul or fma, 5 add; 1 accumulators, 11 values alive, depth 11. */
+/* integral of x^6 y^1; scheme matrix.
+ * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_x6y1_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1010,42 +1010,48 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y1_fma(
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double t0 = a * e;
+			const double t0 = x0 * x0;
 			const double t1 = t0 * t0;
-			const double t2 = a * a;
-			const double t3 = t2 * t2;
-			const double t4 = 14.0 * t3;
-			const double t5 = fma(28.0, t1, t4);
-			const double t6 = e * e;
-			const double t7 = t6 * t6;
-			const double t8 = fma(6.0, t7, t5);
-			const double t9 = t2 * t1;
-			const double t10 = a * t2;
-			const double t11 = t10 * t10;
-			const double t12 = 7.0 * t11;
-			const double t13 = fma(35.0, t9, t12);
-			const double t14 = t1 * t6;
-			const double t15 = fma(21.0, t14, t13);
-			const double t16 = e * t6;
-			const double t17 = fma(t16, t16, t15);
-			const double b = y0 + y1;
-			const double t18 = b * t17;
-			const double f = y1 - y0;
-			const double t19 = f * t0;
-			const double t20 = fma(t8, t19, t18);
-			const double t21 = x0 * y1;
-			const double t22 = x1 * y0;
-			const double s = t21 - t22;
-			acc0 = fma(s, t20, acc0);
+			const double t2 = x0 * x1;
+			const double t3 = t2 * t1;
+			const double t4 = t0 * x0;
+			const double t5 = t4 * t4;
+			const double t6 = fma(2.0, t3, t5);
+			const double t7 = t2 * t2;
+			const double t8 = t0 * t7;
+			const double t9 = fma(3.0, t8, t6);
+			const double t10 = t2 * t7;
+			const double t11 = 4.0 * t10;
+			const double t12 = t11 + t9;
+			const double t13 = x1 * x1;
+			const double t14 = t7 * t13;
+			const double t15 = fma(5.0, t14, t12);
+			const double t16 = t13 * t13;
+			const double t17 = t2 * t16;
+			const double t18 = fma(6.0, t17, t15);
+			const double t19 = t13 * x1;
+			const double t20 = t19 * t19;
+			const double t21 = fma(7.0, t20, t18);
+			const double t22 = 7.0 * t5;
+			const double t23 = fma(6.0, t3, t22);
+			const double t24 = fma(5.0, t8, t23);
+			const double t25 = t24 + t11;
+			const double t26 = fma(3.0, t14, t25);
+			const double t27 = fma(2.0, t17, t26);
+			const double t28 = t27 + t20;
+			const double t29 = t28 * y0;
+			const double t30 = fma(t21, y1, t29);
+			const double t31 = x0 * y1;
+			const double t32 = x1 * y0;
+			const double s = t31 - t32;
+			acc0 = fma(s, t30, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^5 y^2; scheme even-power.
- * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 11 values alive, depth 9. */
+/* integral of x^5 y^2; scheme matrix.
+ * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_x5y2_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1060,40 +1066,49 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y2_fma(
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = a * a;
-			const double t3 = t2 * t2;
-			const double t4 = a * e;
-			const double t5 = t4 * t4;
-			const double t6 = fma(0x1.3333333333333p-2 /* 3/10 */, t3, t5);
-			const double t7 = e * e;
-			const double t8 = t7 * t7;
-			const double t9 = fma(0x1.3333333333333p-2 /* 3/10 */, t8, t6);
-			const double t10 = b * b;
-			const double t11 = a * t10;
-			const double t12 = t9 * t11;
-			const double t13 = fma(0x1.3333333333333p0 /* 6/5 */, t5, t3);
-			const double t14 = fma(0x1.5f15f15f15f16p-4 /* 3/35 */, t8, t13);
-			const double t15 = b * f;
-			const double t16 = e * t15;
-			const double t17 = fma(t14, t16, t12);
-			const double t18 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
-			const double t19 = fma(0x1.3333333333333p-1 /* 3/5 */, t5, t18);
-			const double t20 = fma(0x1.b6db6db6db6dbp-3 /* 3/14 */, t8, t19);
-			const double t21 = f * f;
-			const double t22 = a * t21;
-			const double t23 = fma(t20, t22, t17);
-			acc0 = fma(s, t23, acc0);
+			const double t2 = x0 * x0;
+			const double t3 = t2 * x0;
+			const double t4 = t2 * t3;
+			const double t5 = 3.5 * t4;
+			const double t6 = x0 * x1;
+			const double t7 = t3 * t6;
+			const double t8 = fma(2.5, t7, t5);
+			const double t9 = t6 * t6;
+			const double t10 = t9 * x0;
+			const double t11 = fma(0x1.aaaaaaaaaaaabp0 /* 5/3 */, t10, t8);
+			const double t12 = t9 * x1;
+			const double t13 = t11 + t12;
+			const double t14 = x1 * x1;
+			const double t15 = t14 * x1;
+			const double t16 = t6 * t15;
+			const double t17 = fma(0.5, t16, t13);
+			const double t18 = t14 * t15;
+			const double t19 = fma(0x1.5555555555555p-3 /* 1/6 */, t18, t17);
+			const double t20 = y0 * y0;
+			const double t21 = t19 * t20;
+			const double t22 = fma(0x1.aaaaaaaaaaaabp0 /* 5/3 */, t7, t4);
+			const double t23 = fma(2.0, t10, t22);
+			const double t24 = fma(2.0, t12, t23);
+			const double t25 = fma(0x1.aaaaaaaaaaaabp0 /* 5/3 */, t16, t24);
+			const double t26 = t18 + t25;
+			const double t27 = y0 * y1;
+			const double t28 = fma(t26, t27, t21);
+			const double t29 = 0x1.5555555555555p-3 /* 1/6 */ * t4;
+			const double t30 = fma(0.5, t7, t29);
+			const double t31 = t10 + t30;
+			const double t32 = fma(0x1.aaaaaaaaaaaabp0 /* 5/3 */, t12, t31);
+			const double t33 = fma(2.5, t16, t32);
+			const double t34 = fma(3.5, t18, t33);
+			const double t35 = y1 * y1;
+			const double t36 = fma(t34, t35, t28);
+			acc0 = fma(s, t36, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^4 y^3; scheme even-power.
- * Cost per item: 30 mul or fma, 5 add; 1 accumulators, 13 values alive, depth 10. */
+/* integral of x^4 y^3; scheme matrix.
+ * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_FMA void ew_ring_x4y3_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1108,45 +1123,53 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y3_fma(
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = a * a;
+			const double t2 = x0 * x0;
 			const double t3 = t2 * t2;
-			const double t4 = a * e;
-			const double t5 = t4 * t4;
-			const double t6 = fma(2.0, t5, t3);
-			const double t7 = e * e;
-			const double t8 = t7 * t7;
-			const double t9 = fma(0x1.999999999999ap-3 /* 1/5 */, t8, t6);
-			const double t10 = b * b;
-			const double t11 = b * t10;
-			const double t12 = t9 * t11;
-			const double t13 = 4.0 * t2;
-			const double t14 = fma(0x1.3333333333333p1 /* 12/5 */, t7, t13);
-			const double t15 = b * f;
-			const double t16 = b * t15;
-			const double t17 = t4 * t16;
-			const double t18 = fma(t14, t17, t12);
-			const double t19 = fma(0x1.ccccccccccccdp1 /* 18/5 */, t5, t3);
-			const double t20 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t19);
-			const double t21 = f * t15;
-			const double t22 = fma(t20, t21, t18);
-			const double t23 = 0x1.999999999999ap-1 /* 4/5 */ * t2;
-			const double t24 = fma(0x1.2492492492492p-1 /* 4/7 */, t7, t23);
-			const double t25 = f * f;
-			const double t26 = f * t25;
-			const double t27 = t4 * t26;
-			const double t28 = fma(t24, t27, t22);
-			acc0 = fma(s, t28, acc0);
+			const double t4 = x0 * x1;
+			const double t5 = t2 * t4;
+			const double t6 = fma(1.75, t3, t5);
+			const double t7 = t4 * t4;
+			const double t8 = 0.5 * t7;
+			const double t9 = t6 + t8;
+			const double t10 = x1 * x1;
+			const double t11 = t4 * t10;
+			const double t12 = fma(0x1.999999999999ap-3 /* 1/5 */, t11, t9);
+			const double t13 = t10 * t10;
+			const double t14 = fma(0x1.999999999999ap-5 /* 1/20 */, t13, t12);
+			const double t15 = y0 * y0;
+			const double t16 = t15 * y0;
+			const double t17 = t14 * t16;
+			const double t18 = fma(0.75, t3, t5);
+			const double t19 = 0x1.ccccccccccccdp-1 /* 9/10 */ * t7;
+			const double t20 = t18 + t19;
+			const double t21 = fma(0x1.3333333333333p-1 /* 3/5 */, t11, t20);
+			const double t22 = fma(0.25, t13, t21);
+			const double t23 = y0 * y1;
+			const double t24 = t23 * y0;
+			const double t25 = fma(t22, t24, t17);
+			const double t26 = 0.25 * t3;
+			const double t27 = fma(0x1.3333333333333p-1 /* 3/5 */, t5, t26);
+			const double t28 = t19 + t27;
+			const double t29 = t11 + t28;
+			const double t30 = fma(0.75, t13, t29);
+			const double t31 = t23 * y1;
+			const double t32 = fma(t30, t31, t25);
+			const double t33 = 0x1.999999999999ap-5 /* 1/20 */ * t3;
+			const double t34 = fma(0x1.999999999999ap-3 /* 1/5 */, t5, t33);
+			const double t35 = t8 + t34;
+			const double t36 = t11 + t35;
+			const double t37 = fma(1.75, t13, t36);
+			const double t38 = y1 * y1;
+			const double t39 = t38 * y1;
+			const double t40 = fma(t37, t39, t32);
+			acc0 = fma(s, t40, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^3 y^4; scheme even-power.
- * Cost per item: 30 mul or fma, 5 add; 1 accumulators, 13 values alive, depth 10. */
+/* integral of x^3 y^4; scheme matrix.
+ * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_FMA void ew_ring_x3y4_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1161,45 +1184,53 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y4_fma(
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = b * b;
+			const double t2 = y0 * y0;
 			const double t3 = t2 * t2;
-			const double t4 = b * f;
-			const double t5 = t4 * t4;
-			const double t6 = fma(2.0, t5, t3);
-			const double t7 = f * f;
-			const double t8 = t7 * t7;
-			const double t9 = fma(0x1.999999999999ap-3 /* 1/5 */, t8, t6);
-			const double t10 = a * a;
-			const double t11 = a * t10;
-			const double t12 = t9 * t11;
-			const double t13 = 4.0 * t2;
-			const double t14 = fma(0x1.3333333333333p1 /* 12/5 */, t7, t13);
-			const double t15 = a * e;
-			const double t16 = a * t15;
-			const double t17 = t4 * t16;
-			const double t18 = fma(t14, t17, t12);
-			const double t19 = fma(0x1.ccccccccccccdp1 /* 18/5 */, t5, t3);
-			const double t20 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t19);
-			const double t21 = e * t15;
-			const double t22 = fma(t20, t21, t18);
-			const double t23 = 0x1.999999999999ap-1 /* 4/5 */ * t2;
-			const double t24 = fma(0x1.2492492492492p-1 /* 4/7 */, t7, t23);
-			const double t25 = e * e;
-			const double t26 = e * t25;
-			const double t27 = t4 * t26;
-			const double t28 = fma(t24, t27, t22);
-			acc0 = fma(s, t28, acc0);
+			const double t4 = y0 * y1;
+			const double t5 = t2 * t4;
+			const double t6 = fma(1.75, t3, t5);
+			const double t7 = t4 * t4;
+			const double t8 = 0.5 * t7;
+			const double t9 = t6 + t8;
+			const double t10 = y1 * y1;
+			const double t11 = t4 * t10;
+			const double t12 = fma(0x1.999999999999ap-3 /* 1/5 */, t11, t9);
+			const double t13 = t10 * t10;
+			const double t14 = fma(0x1.999999999999ap-5 /* 1/20 */, t13, t12);
+			const double t15 = x0 * x0;
+			const double t16 = t15 * x0;
+			const double t17 = t14 * t16;
+			const double t18 = fma(0.75, t3, t5);
+			const double t19 = 0x1.ccccccccccccdp-1 /* 9/10 */ * t7;
+			const double t20 = t18 + t19;
+			const double t21 = fma(0x1.3333333333333p-1 /* 3/5 */, t11, t20);
+			const double t22 = fma(0.25, t13, t21);
+			const double t23 = x0 * x1;
+			const double t24 = t23 * x0;
+			const double t25 = fma(t22, t24, t17);
+			const double t26 = 0.25 * t3;
+			const double t27 = fma(0x1.3333333333333p-1 /* 3/5 */, t5, t26);
+			const double t28 = t19 + t27;
+			const double t29 = t11 + t28;
+			const double t30 = fma(0.75, t13, t29);
+			const double t31 = t23 * x1;
+			const double t32 = fma(t30, t31, t25);
+			const double t33 = 0x1.999999999999ap-5 /* 1/20 */ * t3;
+			const double t34 = fma(0x1.999999999999ap-3 /* 1/5 */, t5, t33);
+			const double t35 = t8 + t34;
+			const double t36 = t11 + t35;
+			const double t37 = fma(1.75, t13, t36);
+			const double t38 = x1 * x1;
+			const double t39 = t38 * x1;
+			const double t40 = fma(t37, t39, t32);
+			acc0 = fma(s, t40, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^2 y^5; scheme even-power.
- * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 11 values alive, depth 9. */
+/* integral of x^2 y^5; scheme matrix.
+ * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_x2y5_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1214,40 +1245,49 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y5_fma(
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = b * b;
-			const double t3 = t2 * t2;
-			const double t4 = b * f;
-			const double t5 = t4 * t4;
-			const double t6 = fma(0x1.3333333333333p-2 /* 3/10 */, t3, t5);
-			const double t7 = f * f;
-			const double t8 = t7 * t7;
-			const double t9 = fma(0x1.3333333333333p-2 /* 3/10 */, t8, t6);
-			const double t10 = a * a;
-			const double t11 = b * t10;
-			const double t12 = t9 * t11;
-			const double t13 = fma(0x1.3333333333333p0 /* 6/5 */, t5, t3);
-			const double t14 = fma(0x1.5f15f15f15f16p-4 /* 3/35 */, t8, t13);
-			const double t15 = a * e;
-			const double t16 = f * t15;
-			const double t17 = fma(t14, t16, t12);
-			const double t18 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
-			const double t19 = fma(0x1.3333333333333p-1 /* 3/5 */, t5, t18);
-			const double t20 = fma(0x1.b6db6db6db6dbp-3 /* 3/14 */, t8, t19);
-			const double t21 = e * e;
-			const double t22 = b * t21;
-			const double t23 = fma(t20, t22, t17);
-			acc0 = fma(s, t23, acc0);
+			const double t2 = y0 * y0;
+			const double t3 = t2 * y0;
+			const double t4 = t2 * t3;
+			const double t5 = 0x1.0cccccccccccdp1 /* 21/10 */ * t4;
+			const double t6 = y0 * y1;
+			const double t7 = t3 * t6;
+			const double t8 = fma(1.5, t7, t5);
+			const double t9 = t6 * t6;
+			const double t10 = t9 * y0;
+			const double t11 = t8 + t10;
+			const double t12 = t9 * y1;
+			const double t13 = fma(0x1.3333333333333p-1 /* 3/5 */, t12, t11);
+			const double t14 = y1 * y1;
+			const double t15 = t14 * y1;
+			const double t16 = t6 * t15;
+			const double t17 = fma(0x1.3333333333333p-2 /* 3/10 */, t16, t13);
+			const double t18 = t14 * t15;
+			const double t19 = fma(0x1.999999999999ap-4 /* 1/10 */, t18, t17);
+			const double t20 = x0 * x0;
+			const double t21 = t19 * t20;
+			const double t22 = fma(0x1.3333333333333p-1 /* 3/5 */, t4, t7);
+			const double t23 = fma(0x1.3333333333333p0 /* 6/5 */, t10, t22);
+			const double t24 = fma(0x1.3333333333333p0 /* 6/5 */, t12, t23);
+			const double t25 = t16 + t24;
+			const double t26 = fma(0x1.3333333333333p-1 /* 3/5 */, t18, t25);
+			const double t27 = x0 * x1;
+			const double t28 = fma(t26, t27, t21);
+			const double t29 = 0x1.999999999999ap-4 /* 1/10 */ * t4;
+			const double t30 = fma(0x1.3333333333333p-2 /* 3/10 */, t7, t29);
+			const double t31 = fma(0x1.3333333333333p-1 /* 3/5 */, t10, t30);
+			const double t32 = t12 + t31;
+			const double t33 = fma(1.5, t16, t32);
+			const double t34 = fma(0x1.0cccccccccccdp1 /* 21/10 */, t18, t33);
+			const double t35 = x1 * x1;
+			const double t36 = fma(t34, t35, t28);
+			acc0 = fma(s, t36, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^1 y^6; scheme even-power.
- * Cost per item: 24 mul or fma, 5 add; 1 accumulators, 11 values alive, depth 11. */
+/* integral of x^1 y^6; scheme matrix.
+ * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_x1y6_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1259,35 +1299,41 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y6_fma(
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t0 = b * f;
+			const double t0 = y0 * y0;
 			const double t1 = t0 * t0;
-			const double t2 = b * b;
-			const double t3 = t2 * t2;
-			const double t4 = 14.0 * t3;
-			const double t5 = fma(28.0, t1, t4);
-			const double t6 = f * f;
-			const double t7 = t6 * t6;
-			const double t8 = fma(6.0, t7, t5);
-			const double t9 = t2 * t1;
-			const double t10 = b * t2;
-			const double t11 = t10 * t10;
-			const double t12 = 7.0 * t11;
-			const double t13 = fma(35.0, t9, t12);
-			const double t14 = t1 * t6;
-			const double t15 = fma(21.0, t14, t13);
-			const double t16 = f * t6;
-			const double t17 = fma(t16, t16, t15);
-			const double a = x0 + x1;
-			const double t18 = a * t17;
-			const double e = x1 - x0;
-			const double t19 = e * t0;
-			const double t20 = fma(t8, t19, t18);
-			const double t21 = x0 * y1;
-			const double t22 = x1 * y0;
-			const double s = t21 - t22;
-			acc0 = fma(s, t20, acc0);
+			const double t2 = y0 * y1;
+			const double t3 = t2 * t1;
+			const double t4 = t0 * y0;
+			const double t5 = t4 * t4;
+			const double t6 = fma(2.0, t3, t5);
+			const double t7 = t2 * t2;
+			const double t8 = t0 * t7;
+			const double t9 = fma(3.0, t8, t6);
+			const double t10 = t2 * t7;
+			const double t11 = 4.0 * t10;
+			const double t12 = t11 + t9;
+			const double t13 = y1 * y1;
+			const double t14 = t7 * t13;
+			const double t15 = fma(5.0, t14, t12);
+			const double t16 = t13 * t13;
+			const double t17 = t2 * t16;
+			const double t18 = fma(6.0, t17, t15);
+			const double t19 = t13 * y1;
+			const double t20 = t19 * t19;
+			const double t21 = fma(7.0, t20, t18);
+			const double t22 = 7.0 * t5;
+			const double t23 = fma(6.0, t3, t22);
+			const double t24 = fma(5.0, t8, t23);
+			const double t25 = t24 + t11;
+			const double t26 = fma(3.0, t14, t25);
+			const double t27 = fma(2.0, t17, t26);
+			const double t28 = t27 + t20;
+			const double t29 = t28 * x0;
+			const double t30 = fma(t21, x1, t29);
+			const double t31 = x0 * y1;
+			const double t32 = x1 * y0;
+			const double s = t31 - t32;
+			acc0 = fma(s, t30, acc0);
 		}
 		sum[lane] = acc0;
 	}
@@ -1365,8 +1411,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x8y0_fma(
 	}
 }
 
-/* integral of x^7 y^1; scheme even-power.
- * Cost per item: 22 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 10. */
+/* integral of x^7 y^1; scheme matrix.
+ * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x7y1_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1378,41 +1424,53 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y1_fma(
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
-			const double a = x0 + x1;
-			const double t0 = a * a;
-			const double t1 = a * t0;
-			const double t2 = t1 * t1;
-			const double e = x1 - x0;
-			const double t3 = a * e;
-			const double t4 = t3 * t3;
-			const double t5 = t0 * t4;
-			const double t6 = fma(0x1.5555555555555p-2 /* 1/3 */, t2, t5);
-			const double t7 = e * e;
-			const double t8 = t4 * t7;
-			const double t9 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t6);
-			const double t10 = e * t7;
-			const double t11 = t10 * t10;
-			const double t12 = fma(0x1.0410410410410p-6 /* 1/63 */, t11, t9);
-			const double t13 = fma(0x1.2492492492492p-3 /* 1/7 */, t2, t5);
-			const double t14 = t13 + t8;
-			const double t15 = fma(0x1.2492492492492p-3 /* 1/7 */, t11, t14);
-			const double b = y0 + y1;
-			const double t16 = a * b;
-			const double t17 = t15 * t16;
-			const double f = y1 - y0;
-			const double t18 = e * f;
-			const double t19 = fma(t12, t18, t17);
-			const double t20 = x0 * y1;
-			const double t21 = x1 * y0;
-			const double s = t20 - t21;
-			acc0 = fma(s, t19, acc0);
+			const double t0 = x0 * x0;
+			const double t1 = t0 * x0;
+			const double t2 = t0 * t1;
+			const double t3 = x0 * x1;
+			const double t4 = t3 * t2;
+			const double t5 = t0 * t0;
+			const double t6 = t1 * t5;
+			const double t7 = fma(2.0, t4, t6);
+			const double t8 = t3 * t3;
+			const double t9 = t1 * t8;
+			const double t10 = fma(3.0, t9, t7);
+			const double t11 = t3 * t8;
+			const double t12 = t11 * x0;
+			const double t13 = fma(4.0, t12, t10);
+			const double t14 = t11 * x1;
+			const double t15 = fma(5.0, t14, t13);
+			const double t16 = x1 * x1;
+			const double t17 = t16 * x1;
+			const double t18 = t8 * t17;
+			const double t19 = fma(6.0, t18, t15);
+			const double t20 = t16 * t17;
+			const double t21 = t3 * t20;
+			const double t22 = fma(7.0, t21, t19);
+			const double t23 = t16 * t16;
+			const double t24 = t17 * t23;
+			const double t25 = fma(8.0, t24, t22);
+			const double t26 = 8.0 * t6;
+			const double t27 = fma(7.0, t4, t26);
+			const double t28 = fma(6.0, t9, t27);
+			const double t29 = fma(5.0, t12, t28);
+			const double t30 = fma(4.0, t14, t29);
+			const double t31 = fma(3.0, t18, t30);
+			const double t32 = fma(2.0, t21, t31);
+			const double t33 = t32 + t24;
+			const double t34 = t33 * y0;
+			const double t35 = fma(t25, y1, t34);
+			const double t36 = x0 * y1;
+			const double t37 = x1 * y0;
+			const double s = t36 - t37;
+			acc0 = fma(s, t35, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^6 y^2; scheme even-power.
- * Cost per item: 31 mul or fma, 6 add; 1 accumulators, 14 values alive, depth 12. */
+/* integral of x^6 y^2; scheme matrix.
+ * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x6y2_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1424,50 +1482,60 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y2_fma(
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double t0 = a * e;
+			const double t0 = x0 * x0;
 			const double t1 = t0 * t0;
-			const double t2 = a * a;
-			const double t3 = t2 * t2;
-			const double t4 = 0x1.5555555555555p0 /* 4/3 */ * t3;
-			const double t5 = fma(0x1.5555555555555p1 /* 8/3 */, t1, t4);
-			const double t6 = e * e;
-			const double t7 = t6 * t6;
-			const double t8 = fma(0x1.2492492492492p-1 /* 4/7 */, t7, t5);
-			const double t9 = t2 * t1;
-			const double t10 = a * t2;
-			const double t11 = t10 * t10;
-			const double t12 = 0x1.5555555555555p-2 /* 1/3 */ * t11;
-			const double t13 = fma(0x1.aaaaaaaaaaaabp0 /* 5/3 */, t9, t12);
-			const double t14 = t1 * t6;
-			const double t15 = t13 + t14;
-			const double t16 = e * t6;
-			const double t17 = t16 * t16;
-			const double t18 = fma(0x1.8618618618618p-5 /* 1/21 */, t17, t15);
-			const double b = y0 + y1;
-			const double t19 = b * b;
-			const double t20 = t18 * t19;
-			const double f = y1 - y0;
-			const double t21 = b * f;
-			const double t22 = t0 * t21;
-			const double t23 = fma(t8, t22, t20);
-			const double t24 = fma(0x1.c71c71c71c71cp-4 /* 1/9 */, t11, t9);
-			const double t25 = fma(0x1.6db6db6db6db7p-1 /* 5/7 */, t14, t24);
-			const double t26 = fma(0x1.2f684bda12f68p-5 /* 1/27 */, t17, t25);
-			const double t27 = f * f;
-			const double t28 = fma(t26, t27, t23);
-			const double t29 = x0 * y1;
-			const double t30 = x1 * y0;
-			const double s = t29 - t30;
-			acc0 = fma(s, t28, acc0);
+			const double t2 = x0 * x1;
+			const double t3 = t2 * t1;
+			const double t4 = t0 * x0;
+			const double t5 = t4 * t4;
+			const double t6 = 0x1.ddddddddddddep-2 /* 7/15 */ * t5;
+			const double t7 = fma(0x1.999999999999ap-1 /* 4/5 */, t3, t6);
+			const double t8 = t2 * t2;
+			const double t9 = t0 * t8;
+			const double t10 = t9 + t7;
+			const double t11 = t2 * t8;
+			const double t12 = fma(0x1.1111111111111p0 /* 16/15 */, t11, t10);
+			const double t13 = x1 * x1;
+			const double t14 = t8 * t13;
+			const double t15 = t14 + t12;
+			const double t16 = t13 * t13;
+			const double t17 = t2 * t16;
+			const double t18 = fma(0x1.999999999999ap-1 /* 4/5 */, t17, t15);
+			const double t19 = t13 * x1;
+			const double t20 = t19 * t19;
+			const double t21 = fma(0x1.ddddddddddddep-2 /* 7/15 */, t20, t18);
+			const double t22 = 0x1.ddddddddddddep0 /* 28/15 */ * t5;
+			const double t23 = fma(0x1.6666666666666p0 /* 7/5 */, t3, t22);
+			const double t24 = t23 + t9;
+			const double t25 = 0x1.5555555555555p-1 /* 2/3 */ * t11;
+			const double t26 = t24 + t25;
+			const double t27 = fma(0x1.999999999999ap-2 /* 2/5 */, t14, t26);
+			const double t28 = fma(0x1.999999999999ap-3 /* 1/5 */, t17, t27);
+			const double t29 = fma(0x1.1111111111111p-4 /* 1/15 */, t20, t28);
+			const double t30 = y0 * y0;
+			const double t31 = t29 * t30;
+			const double t32 = y0 * y1;
+			const double t33 = fma(t21, t32, t31);
+			const double t34 = 0x1.1111111111111p-4 /* 1/15 */ * t5;
+			const double t35 = fma(0x1.999999999999ap-3 /* 1/5 */, t3, t34);
+			const double t36 = fma(0x1.999999999999ap-2 /* 2/5 */, t9, t35);
+			const double t37 = t25 + t36;
+			const double t38 = t14 + t37;
+			const double t39 = fma(0x1.6666666666666p0 /* 7/5 */, t17, t38);
+			const double t40 = fma(0x1.ddddddddddddep0 /* 28/15 */, t20, t39);
+			const double t41 = y1 * y1;
+			const double t42 = fma(t40, t41, t33);
+			const double t43 = x0 * y1;
+			const double t44 = x1 * y0;
+			const double s = t43 - t44;
+			acc0 = fma(s, t42, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^5 y^3; scheme even-power.
- * Cost per item: 31 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 10. */
+/* integral of x^5 y^3; scheme matrix.
+ * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x5y3_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1482,48 +1550,60 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y3_fma(
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = a * a;
-			const double t3 = t2 * t2;
-			const double t4 = a * e;
-			const double t5 = t4 * t4;
-			const double t6 = fma(0x1.aaaaaaaaaaaabp1 /* 10/3 */, t5, t3);
-			const double t7 = e * e;
-			const double t8 = t7 * t7;
-			const double t9 = t6 + t8;
-			const double t10 = b * b;
-			const double t11 = b * t10;
-			const double t12 = a * t11;
-			const double t13 = t9 * t12;
-			const double t14 = 6.0 * t5;
-			const double t15 = fma(5.0, t3, t14);
-			const double t16 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t15);
-			const double t17 = b * f;
-			const double t18 = b * t17;
-			const double t19 = e * t18;
-			const double t20 = fma(t16, t19, t13);
-			const double t21 = t3 + t14;
-			const double t22 = fma(0x1.1249249249249p1 /* 15/7 */, t8, t21);
-			const double t23 = f * t17;
-			const double t24 = a * t23;
-			const double t25 = fma(t22, t24, t20);
-			const double t26 = fma(0x1.6db6db6db6db7p0 /* 10/7 */, t5, t3);
-			const double t27 = fma(0x1.c71c71c71c71cp-4 /* 1/9 */, t8, t26);
-			const double t28 = f * f;
-			const double t29 = f * t28;
-			const double t30 = e * t29;
-			const double t31 = fma(t27, t30, t25);
-			acc0 = fma(s, t31, acc0);
+			const double t2 = x0 * x0;
+			const double t3 = t2 * x0;
+			const double t4 = t2 * t3;
+			const double t5 = 0x1.ddddddddddddep0 /* 28/15 */ * t4;
+			const double t6 = x0 * x1;
+			const double t7 = t3 * t6;
+			const double t8 = fma(0x1.2aaaaaaaaaaabp0 /* 7/6 */, t7, t5);
+			const double t9 = t6 * t6;
+			const double t10 = t9 * x0;
+			const double t11 = fma(0x1.5555555555555p-1 /* 2/3 */, t10, t8);
+			const double t12 = t9 * x1;
+			const double t13 = fma(0x1.5555555555555p-2 /* 1/3 */, t12, t11);
+			const double t14 = x1 * x1;
+			const double t15 = t14 * x1;
+			const double t16 = t6 * t15;
+			const double t17 = fma(0x1.1111111111111p-3 /* 2/15 */, t16, t13);
+			const double t18 = t14 * t15;
+			const double t19 = fma(0x1.1111111111111p-5 /* 1/30 */, t18, t17);
+			const double t20 = y0 * y0;
+			const double t21 = t20 * y0;
+			const double t22 = t19 * t21;
+			const double t23 = fma(0x1.6666666666666p-1 /* 7/10 */, t4, t7);
+			const double t24 = t10 + t23;
+			const double t25 = fma(0x1.999999999999ap-1 /* 4/5 */, t12, t24);
+			const double t26 = fma(0.5, t16, t25);
+			const double t27 = fma(0x1.999999999999ap-3 /* 1/5 */, t18, t26);
+			const double t28 = y0 * y1;
+			const double t29 = t28 * y0;
+			const double t30 = fma(t27, t29, t22);
+			const double t31 = 0x1.999999999999ap-3 /* 1/5 */ * t4;
+			const double t32 = fma(0.5, t7, t31);
+			const double t33 = fma(0x1.999999999999ap-1 /* 4/5 */, t10, t32);
+			const double t34 = t12 + t33;
+			const double t35 = t16 + t34;
+			const double t36 = fma(0x1.6666666666666p-1 /* 7/10 */, t18, t35);
+			const double t37 = t28 * y1;
+			const double t38 = fma(t36, t37, t30);
+			const double t39 = 0x1.1111111111111p-5 /* 1/30 */ * t4;
+			const double t40 = fma(0x1.1111111111111p-3 /* 2/15 */, t7, t39);
+			const double t41 = fma(0x1.5555555555555p-2 /* 1/3 */, t10, t40);
+			const double t42 = fma(0x1.5555555555555p-1 /* 2/3 */, t12, t41);
+			const double t43 = fma(0x1.2aaaaaaaaaaabp0 /* 7/6 */, t16, t42);
+			const double t44 = fma(0x1.ddddddddddddep0 /* 28/15 */, t18, t43);
+			const double t45 = y1 * y1;
+			const double t46 = t45 * y1;
+			const double t47 = fma(t44, t46, t38);
+			acc0 = fma(s, t47, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^4 y^4; scheme even-power.
- * Cost per item: 35 mul or fma, 5 add; 1 accumulators, 13 values alive, depth 11. */
+/* integral of x^4 y^4; scheme matrix.
+ * Cost per item: 45 mul or fma, 6 add; 1 accumulators, 14 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_x4y4_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1538,50 +1618,61 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y4_fma(
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = b * b;
+			const double t2 = y0 * y0;
 			const double t3 = t2 * t2;
-			const double t4 = b * f;
-			const double t5 = t4 * t4;
-			const double t6 = fma(0.5, t3, t5);
-			const double t7 = f * f;
-			const double t8 = t7 * t7;
-			const double t9 = fma(0x1.999999999999ap-4 /* 1/10 */, t8, t6);
-			const double t10 = a * a;
-			const double t11 = t10 * t10;
-			const double t12 = t9 * t11;
-			const double t13 = 0x1.5555555555555p1 /* 8/3 */ * t2;
-			const double t14 = fma(0x1.999999999999ap0 /* 8/5 */, t7, t13);
-			const double t15 = a * e;
-			const double t16 = t10 * t15;
-			const double t17 = t4 * t16;
-			const double t18 = fma(t14, t17, t12);
-			const double t19 = fma(0x1.ccccccccccccdp1 /* 18/5 */, t5, t3);
-			const double t20 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t19);
-			const double t21 = t15 * t15;
-			const double t22 = fma(t20, t21, t18);
-			const double t23 = 0x1.999999999999ap0 /* 8/5 */ * t2;
-			const double t24 = fma(0x1.2492492492492p0 /* 8/7 */, t7, t23);
-			const double t25 = e * e;
-			const double t26 = t15 * t25;
-			const double t27 = t4 * t26;
-			const double t28 = fma(t24, t27, t22);
-			const double t29 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
-			const double t30 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t5, t29);
-			const double t31 = fma(0x1.c71c71c71c71cp-5 /* 1/18 */, t8, t30);
-			const double t32 = t25 * t25;
-			const double t33 = fma(t31, t32, t28);
-			acc0 = fma(s, t33, acc0);
+			const double t4 = 70.0 * t3;
+			const double t5 = y0 * y1;
+			const double t6 = t2 * t5;
+			const double t7 = fma(35.0, t6, t4);
+			const double t8 = t5 * t5;
+			const double t9 = 15.0 * t8;
+			const double t10 = t7 + t9;
+			const double t11 = y1 * y1;
+			const double t12 = t5 * t11;
+			const double t13 = fma(5.0, t12, t10);
+			const double t14 = t11 * t11;
+			const double t15 = t13 + t14;
+			const double t16 = x0 * x0;
+			const double t17 = t16 * t16;
+			const double t18 = t15 * t17;
+			const double t19 = 35.0 * t3;
+			const double t20 = fma(40.0, t6, t19);
+			const double t21 = 30.0 * t8;
+			const double t22 = t20 + t21;
+			const double t23 = fma(16.0, t12, t22);
+			const double t24 = fma(5.0, t14, t23);
+			const double t25 = x0 * x1;
+			const double t26 = t16 * t25;
+			const double t27 = fma(t24, t26, t18);
+			const double t28 = 15.0 * t3;
+			const double t29 = fma(30.0, t6, t28);
+			const double t30 = fma(36.0, t8, t29);
+			const double t31 = fma(30.0, t12, t30);
+			const double t32 = fma(15.0, t14, t31);
+			const double t33 = t25 * t25;
+			const double t34 = fma(t32, t33, t27);
+			const double t35 = 5.0 * t3;
+			const double t36 = fma(16.0, t6, t35);
+			const double t37 = t21 + t36;
+			const double t38 = fma(40.0, t12, t37);
+			const double t39 = fma(35.0, t14, t38);
+			const double t40 = x1 * x1;
+			const double t41 = t25 * t40;
+			const double t42 = fma(t39, t41, t34);
+			const double t43 = fma(5.0, t6, t3);
+			const double t44 = t9 + t43;
+			const double t45 = fma(35.0, t12, t44);
+			const double t46 = fma(70.0, t14, t45);
+			const double t47 = t40 * t40;
+			const double t48 = fma(t46, t47, t42);
+			acc0 = fma(s, t48, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^3 y^5; scheme even-power.
- * Cost per item: 31 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 10. */
+/* integral of x^3 y^5; scheme matrix.
+ * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x3y5_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1596,48 +1687,60 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y5_fma(
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = b * b;
-			const double t3 = t2 * t2;
-			const double t4 = b * f;
-			const double t5 = t4 * t4;
-			const double t6 = fma(0x1.aaaaaaaaaaaabp1 /* 10/3 */, t5, t3);
-			const double t7 = f * f;
-			const double t8 = t7 * t7;
-			const double t9 = t6 + t8;
-			const double t10 = a * a;
-			const double t11 = a * t10;
-			const double t12 = b * t11;
-			const double t13 = t9 * t12;
-			const double t14 = 6.0 * t5;
-			const double t15 = fma(5.0, t3, t14);
-			const double t16 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t15);
-			const double t17 = a * e;
-			const double t18 = a * t17;
-			const double t19 = f * t18;
-			const double t20 = fma(t16, t19, t13);
-			const double t21 = t3 + t14;
-			const double t22 = fma(0x1.1249249249249p1 /* 15/7 */, t8, t21);
-			const double t23 = e * t17;
-			const double t24 = b * t23;
-			const double t25 = fma(t22, t24, t20);
-			const double t26 = fma(0x1.6db6db6db6db7p0 /* 10/7 */, t5, t3);
-			const double t27 = fma(0x1.c71c71c71c71cp-4 /* 1/9 */, t8, t26);
-			const double t28 = e * e;
-			const double t29 = e * t28;
-			const double t30 = f * t29;
-			const double t31 = fma(t27, t30, t25);
-			acc0 = fma(s, t31, acc0);
+			const double t2 = y0 * y0;
+			const double t3 = t2 * y0;
+			const double t4 = t2 * t3;
+			const double t5 = 0x1.ddddddddddddep0 /* 28/15 */ * t4;
+			const double t6 = y0 * y1;
+			const double t7 = t3 * t6;
+			const double t8 = fma(0x1.2aaaaaaaaaaabp0 /* 7/6 */, t7, t5);
+			const double t9 = t6 * t6;
+			const double t10 = t9 * y0;
+			const double t11 = fma(0x1.5555555555555p-1 /* 2/3 */, t10, t8);
+			const double t12 = t9 * y1;
+			const double t13 = fma(0x1.5555555555555p-2 /* 1/3 */, t12, t11);
+			const double t14 = y1 * y1;
+			const double t15 = t14 * y1;
+			const double t16 = t6 * t15;
+			const double t17 = fma(0x1.1111111111111p-3 /* 2/15 */, t16, t13);
+			const double t18 = t14 * t15;
+			const double t19 = fma(0x1.1111111111111p-5 /* 1/30 */, t18, t17);
+			const double t20 = x0 * x0;
+			const double t21 = t20 * x0;
+			const double t22 = t19 * t21;
+			const double t23 = fma(0x1.6666666666666p-1 /* 7/10 */, t4, t7);
+			const double t24 = t10 + t23;
+			const double t25 = fma(0x1.999999999999ap-1 /* 4/5 */, t12, t24);
+			const double t26 = fma(0.5, t16, t25);
+			const double t27 = fma(0x1.999999999999ap-3 /* 1/5 */, t18, t26);
+			const double t28 = x0 * x1;
+			const double t29 = t28 * x0;
+			const double t30 = fma(t27, t29, t22);
+			const double t31 = 0x1.999999999999ap-3 /* 1/5 */ * t4;
+			const double t32 = fma(0.5, t7, t31);
+			const double t33 = fma(0x1.999999999999ap-1 /* 4/5 */, t10, t32);
+			const double t34 = t12 + t33;
+			const double t35 = t16 + t34;
+			const double t36 = fma(0x1.6666666666666p-1 /* 7/10 */, t18, t35);
+			const double t37 = t28 * x1;
+			const double t38 = fma(t36, t37, t30);
+			const double t39 = 0x1.1111111111111p-5 /* 1/30 */ * t4;
+			const double t40 = fma(0x1.1111111111111p-3 /* 2/15 */, t7, t39);
+			const double t41 = fma(0x1.5555555555555p-2 /* 1/3 */, t10, t40);
+			const double t42 = fma(0x1.5555555555555p-1 /* 2/3 */, t12, t41);
+			const double t43 = fma(0x1.2aaaaaaaaaaabp0 /* 7/6 */, t16, t42);
+			const double t44 = fma(0x1.ddddddddddddep0 /* 28/15 */, t18, t43);
+			const double t45 = x1 * x1;
+			const double t46 = t45 * x1;
+			const double t47 = fma(t44, t46, t38);
+			acc0 = fma(s, t47, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^2 y^6; scheme even-power.
- * Cost per item: 31 mul or fma, 6 add; 1 accumulators, 14 values alive, depth 12. */
+/* integral of x^2 y^6; scheme matrix.
+ * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x2y6_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1649,50 +1752,60 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y6_fma(
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t0 = b * f;
+			const double t0 = y0 * y0;
 			const double t1 = t0 * t0;
-			const double t2 = b * b;
-			const double t3 = t2 * t2;
-			const double t4 = 0x1.5555555555555p0 /* 4/3 */ * t3;
-			const double t5 = fma(0x1.5555555555555p1 /* 8/3 */, t1, t4);
-			const double t6 = f * f;
-			const double t7 = t6 * t6;
-			const double t8 = fma(0x1.2492492492492p-1 /* 4/7 */, t7, t5);
-			const double t9 = t2 * t1;
-			const double t10 = b * t2;
-			const double t11 = t10 * t10;
-			const double t12 = 0x1.5555555555555p-2 /* 1/3 */ * t11;
-			const double t13 = fma(0x1.aaaaaaaaaaaabp0 /* 5/3 */, t9, t12);
-			const double t14 = t1 * t6;
-			const double t15 = t13 + t14;
-			const double t16 = f * t6;
-			const double t17 = t16 * t16;
-			const double t18 = fma(0x1.8618618618618p-5 /* 1/21 */, t17, t15);
-			const double a = x0 + x1;
-			const double t19 = a * a;
-			const double t20 = t18 * t19;
-			const double e = x1 - x0;
-			const double t21 = a * e;
-			const double t22 = t0 * t21;
-			const double t23 = fma(t8, t22, t20);
-			const double t24 = fma(0x1.c71c71c71c71cp-4 /* 1/9 */, t11, t9);
-			const double t25 = fma(0x1.6db6db6db6db7p-1 /* 5/7 */, t14, t24);
-			const double t26 = fma(0x1.2f684bda12f68p-5 /* 1/27 */, t17, t25);
-			const double t27 = e * e;
-			const double t28 = fma(t26, t27, t23);
-			const double t29 = x0 * y1;
-			const double t30 = x1 * y0;
-			const double s = t29 - t30;
-			acc0 = fma(s, t28, acc0);
+			const double t2 = y0 * y1;
+			const double t3 = t2 * t1;
+			const double t4 = t0 * y0;
+			const double t5 = t4 * t4;
+			const double t6 = 0x1.ddddddddddddep-2 /* 7/15 */ * t5;
+			const double t7 = fma(0x1.999999999999ap-1 /* 4/5 */, t3, t6);
+			const double t8 = t2 * t2;
+			const double t9 = t0 * t8;
+			const double t10 = t9 + t7;
+			const double t11 = t2 * t8;
+			const double t12 = fma(0x1.1111111111111p0 /* 16/15 */, t11, t10);
+			const double t13 = y1 * y1;
+			const double t14 = t8 * t13;
+			const double t15 = t14 + t12;
+			const double t16 = t13 * t13;
+			const double t17 = t2 * t16;
+			const double t18 = fma(0x1.999999999999ap-1 /* 4/5 */, t17, t15);
+			const double t19 = t13 * y1;
+			const double t20 = t19 * t19;
+			const double t21 = fma(0x1.ddddddddddddep-2 /* 7/15 */, t20, t18);
+			const double t22 = 0x1.ddddddddddddep0 /* 28/15 */ * t5;
+			const double t23 = fma(0x1.6666666666666p0 /* 7/5 */, t3, t22);
+			const double t24 = t23 + t9;
+			const double t25 = 0x1.5555555555555p-1 /* 2/3 */ * t11;
+			const double t26 = t24 + t25;
+			const double t27 = fma(0x1.999999999999ap-2 /* 2/5 */, t14, t26);
+			const double t28 = fma(0x1.999999999999ap-3 /* 1/5 */, t17, t27);
+			const double t29 = fma(0x1.1111111111111p-4 /* 1/15 */, t20, t28);
+			const double t30 = x0 * x0;
+			const double t31 = t29 * t30;
+			const double t32 = x0 * x1;
+			const double t33 = fma(t21, t32, t31);
+			const double t34 = 0x1.1111111111111p-4 /* 1/15 */ * t5;
+			const double t35 = fma(0x1.999999999999ap-3 /* 1/5 */, t3, t34);
+			const double t36 = fma(0x1.999999999999ap-2 /* 2/5 */, t9, t35);
+			const double t37 = t25 + t36;
+			const double t38 = t14 + t37;
+			const double t39 = fma(0x1.6666666666666p0 /* 7/5 */, t17, t38);
+			const double t40 = fma(0x1.ddddddddddddep0 /* 28/15 */, t20, t39);
+			const double t41 = x1 * x1;
+			const double t42 = fma(t40, t41, t33);
+			const double t43 = x0 * y1;
+			const double t44 = x1 * y0;
+			const double s = t43 - t44;
+			acc0 = fma(s, t42, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^1 y^7; scheme even-power.
- * Cost per item: 22 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 10. */
+/* integral of x^1 y^7; scheme matrix.
+ * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x1y7_fma(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1704,34 +1817,46 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y7_fma(
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
-			const double b = y0 + y1;
-			const double t0 = b * b;
-			const double t1 = b * t0;
-			const double t2 = t1 * t1;
-			const double f = y1 - y0;
-			const double t3 = b * f;
-			const double t4 = t3 * t3;
-			const double t5 = t0 * t4;
-			const double t6 = fma(0x1.5555555555555p-2 /* 1/3 */, t2, t5);
-			const double t7 = f * f;
-			const double t8 = t4 * t7;
-			const double t9 = fma(0x1.b6db6db6db6dbp-2 /* 3/7 */, t8, t6);
-			const double t10 = f * t7;
-			const double t11 = t10 * t10;
-			const double t12 = fma(0x1.0410410410410p-6 /* 1/63 */, t11, t9);
-			const double t13 = fma(0x1.2492492492492p-3 /* 1/7 */, t2, t5);
-			const double t14 = t13 + t8;
-			const double t15 = fma(0x1.2492492492492p-3 /* 1/7 */, t11, t14);
-			const double a = x0 + x1;
-			const double t16 = a * b;
-			const double t17 = t15 * t16;
-			const double e = x1 - x0;
-			const double t18 = e * f;
-			const double t19 = fma(t12, t18, t17);
-			const double t20 = x0 * y1;
-			const double t21 = x1 * y0;
-			const double s = t20 - t21;
-			acc0 = fma(s, t19, acc0);
+			const double t0 = y0 * y0;
+			const double t1 = t0 * y0;
+			const double t2 = t0 * t1;
+			const double t3 = y0 * y1;
+			const double t4 = t3 * t2;
+			const double t5 = t0 * t0;
+			const double t6 = t1 * t5;
+			const double t7 = fma(2.0, t4, t6);
+			const double t8 = t3 * t3;
+			const double t9 = t1 * t8;
+			const double t10 = fma(3.0, t9, t7);
+			const double t11 = t3 * t8;
+			const double t12 = t11 * y0;
+			const double t13 = fma(4.0, t12, t10);
+			const double t14 = t11 * y1;
+			const double t15 = fma(5.0, t14, t13);
+			const double t16 = y1 * y1;
+			const double t17 = t16 * y1;
+			const double t18 = t8 * t17;
+			const double t19 = fma(6.0, t18, t15);
+			const double t20 = t16 * t17;
+			const double t21 = t3 * t20;
+			const double t22 = fma(7.0, t21, t19);
+			const double t23 = t16 * t16;
+			const double t24 = t17 * t23;
+			const double t25 = fma(8.0, t24, t22);
+			const double t26 = 8.0 * t6;
+			const double t27 = fma(7.0, t4, t26);
+			const double t28 = fma(6.0, t9, t27);
+			const double t29 = fma(5.0, t12, t28);
+			const double t30 = fma(4.0, t14, t29);
+			const double t31 = fma(3.0, t18, t30);
+			const double t32 = fma(2.0, t21, t31);
+			const double t33 = t32 + t24;
+			const double t34 = t33 * x0;
+			const double t35 = fma(t25, x1, t34);
+			const double t36 = x0 * y1;
+			const double t37 = x1 * y0;
+			const double s = t36 - t37;
+			acc0 = fma(s, t35, acc0);
 		}
 		sum[lane] = acc0;
 	}

@@ -1117,8 +1117,8 @@ void ew_ring_x7y0_portable(
 	}
 }
 
-/* integral of x^6 y^1; scheme even-power.
- * Cost per item: 24 mul, 12 add; 1 accumulators, 11 values alive, depth 12. */
+/* integral of x^6 y^1; scheme matrix.
+ * Cost per item: 31 mul, 15 add; 1 accumulators, 12 values alive, depth 14. */
 void ew_ring_x6y1_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1130,49 +1130,59 @@ void ew_ring_x6y1_portable(
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
-			const double a = x0 + x1;
-			const double t0 = a * a;
-			const double t1 = a * t0;
+			const double t0 = x0 * x0;
+			const double t1 = t0 * x0;
 			const double t2 = t1 * t1;
 			const double t3 = 7.0 * t2;
-			const double e = x1 - x0;
-			const double t4 = a * e;
-			const double t5 = t4 * t4;
-			const double t6 = t0 * t5;
-			const double t7 = 35.0 * t6;
+			const double t4 = t0 * t0;
+			const double t5 = x0 * x1;
+			const double t6 = t5 * t4;
+			const double t7 = 6.0 * t6;
 			const double t8 = t3 + t7;
-			const double t9 = e * e;
-			const double t10 = t5 * t9;
-			const double t11 = 21.0 * t10;
+			const double t9 = t5 * t5;
+			const double t10 = t0 * t9;
+			const double t11 = 5.0 * t10;
 			const double t12 = t8 + t11;
-			const double t13 = e * t9;
-			const double t14 = t13 * t13;
+			const double t13 = t5 * t9;
+			const double t14 = 4.0 * t13;
 			const double t15 = t12 + t14;
-			const double b = y0 + y1;
-			const double t16 = b * t15;
-			const double t17 = t0 * t0;
-			const double t18 = 14.0 * t17;
-			const double t19 = 28.0 * t5;
-			const double t20 = t18 + t19;
-			const double t21 = t9 * t9;
-			const double t22 = 6.0 * t21;
-			const double t23 = t20 + t22;
-			const double f = y1 - y0;
-			const double t24 = f * t4;
-			const double t25 = t23 * t24;
-			const double t26 = t16 + t25;
-			const double t27 = x0 * y1;
-			const double t28 = x1 * y0;
-			const double s = t27 - t28;
-			const double t29 = s * t26;
-			acc0 = acc0 + t29;
+			const double t16 = x1 * x1;
+			const double t17 = t9 * t16;
+			const double t18 = 3.0 * t17;
+			const double t19 = t15 + t18;
+			const double t20 = t16 * t16;
+			const double t21 = t5 * t20;
+			const double t22 = 2.0 * t21;
+			const double t23 = t19 + t22;
+			const double t24 = t16 * x1;
+			const double t25 = t24 * t24;
+			const double t26 = t23 + t25;
+			const double t27 = t26 * y0;
+			const double t28 = 2.0 * t6;
+			const double t29 = t2 + t28;
+			const double t30 = 3.0 * t10;
+			const double t31 = t29 + t30;
+			const double t32 = t14 + t31;
+			const double t33 = 5.0 * t17;
+			const double t34 = t32 + t33;
+			const double t35 = 6.0 * t21;
+			const double t36 = t34 + t35;
+			const double t37 = 7.0 * t25;
+			const double t38 = t36 + t37;
+			const double t39 = t38 * y1;
+			const double t40 = t27 + t39;
+			const double t41 = x0 * y1;
+			const double t42 = x1 * y0;
+			const double s = t41 - t42;
+			const double t43 = s * t40;
+			acc0 = acc0 + t43;
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^5 y^2; scheme even-power.
- * Cost per item: 25 mul, 14 add; 1 accumulators, 12 values alive, depth 11. */
+/* integral of x^5 y^2; scheme matrix.
+ * Cost per item: 35 mul, 19 add; 1 accumulators, 13 values alive, depth 14. */
 void ew_ring_x5y2_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1187,49 +1197,64 @@ void ew_ring_x5y2_portable(
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = a * a;
-			const double t3 = t2 * t2;
-			const double t4 = 0x1.3333333333333p-2 /* 3/10 */ * t3;
-			const double t5 = a * e;
-			const double t6 = t5 * t5;
-			const double t7 = t4 + t6;
-			const double t8 = e * e;
-			const double t9 = t8 * t8;
-			const double t10 = 0x1.3333333333333p-2 /* 3/10 */ * t9;
-			const double t11 = t7 + t10;
-			const double t12 = b * b;
-			const double t13 = a * t12;
-			const double t14 = t11 * t13;
-			const double t15 = 0x1.3333333333333p0 /* 6/5 */ * t6;
-			const double t16 = t3 + t15;
-			const double t17 = 0x1.5f15f15f15f16p-4 /* 3/35 */ * t9;
-			const double t18 = t16 + t17;
-			const double t19 = b * f;
-			const double t20 = e * t19;
-			const double t21 = t18 * t20;
-			const double t22 = t14 + t21;
-			const double t23 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
-			const double t24 = 0x1.3333333333333p-1 /* 3/5 */ * t6;
-			const double t25 = t23 + t24;
-			const double t26 = 0x1.b6db6db6db6dbp-3 /* 3/14 */ * t9;
-			const double t27 = t25 + t26;
-			const double t28 = f * f;
-			const double t29 = a * t28;
-			const double t30 = t27 * t29;
-			const double t31 = t22 + t30;
-			const double t32 = s * t31;
-			acc0 = acc0 + t32;
+			const double t2 = x0 * x0;
+			const double t3 = t2 * x0;
+			const double t4 = t2 * t3;
+			const double t5 = 3.5 * t4;
+			const double t6 = x0 * x1;
+			const double t7 = t3 * t6;
+			const double t8 = 2.5 * t7;
+			const double t9 = t5 + t8;
+			const double t10 = t6 * t6;
+			const double t11 = t10 * x0;
+			const double t12 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t11;
+			const double t13 = t9 + t12;
+			const double t14 = t10 * x1;
+			const double t15 = t13 + t14;
+			const double t16 = x1 * x1;
+			const double t17 = t16 * x1;
+			const double t18 = t6 * t17;
+			const double t19 = 0.5 * t18;
+			const double t20 = t15 + t19;
+			const double t21 = t16 * t17;
+			const double t22 = 0x1.5555555555555p-3 /* 1/6 */ * t21;
+			const double t23 = t20 + t22;
+			const double t24 = y0 * y0;
+			const double t25 = t23 * t24;
+			const double t26 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t7;
+			const double t27 = t4 + t26;
+			const double t28 = 2.0 * t11;
+			const double t29 = t27 + t28;
+			const double t30 = 2.0 * t14;
+			const double t31 = t29 + t30;
+			const double t32 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t18;
+			const double t33 = t31 + t32;
+			const double t34 = t21 + t33;
+			const double t35 = y0 * y1;
+			const double t36 = t34 * t35;
+			const double t37 = t25 + t36;
+			const double t38 = 0x1.5555555555555p-3 /* 1/6 */ * t4;
+			const double t39 = 0.5 * t7;
+			const double t40 = t38 + t39;
+			const double t41 = t11 + t40;
+			const double t42 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t14;
+			const double t43 = t41 + t42;
+			const double t44 = 2.5 * t18;
+			const double t45 = t43 + t44;
+			const double t46 = 3.5 * t21;
+			const double t47 = t45 + t46;
+			const double t48 = y1 * y1;
+			const double t49 = t47 * t48;
+			const double t50 = t37 + t49;
+			const double t51 = s * t50;
+			acc0 = acc0 + t51;
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^4 y^3; scheme even-power.
- * Cost per item: 30 mul, 15 add; 1 accumulators, 13 values alive, depth 12. */
+/* integral of x^4 y^3; scheme matrix.
+ * Cost per item: 36 mul, 21 add; 1 accumulators, 13 values alive, depth 13. */
 void ew_ring_x4y3_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1244,55 +1269,67 @@ void ew_ring_x4y3_portable(
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = a * a;
+			const double t2 = x0 * x0;
 			const double t3 = t2 * t2;
-			const double t4 = a * e;
-			const double t5 = t4 * t4;
-			const double t6 = 2.0 * t5;
-			const double t7 = t3 + t6;
-			const double t8 = e * e;
-			const double t9 = t8 * t8;
-			const double t10 = 0x1.999999999999ap-3 /* 1/5 */ * t9;
-			const double t11 = t7 + t10;
-			const double t12 = b * b;
-			const double t13 = b * t12;
-			const double t14 = t11 * t13;
-			const double t15 = 4.0 * t2;
-			const double t16 = 0x1.3333333333333p1 /* 12/5 */ * t8;
-			const double t17 = t15 + t16;
-			const double t18 = b * f;
-			const double t19 = b * t18;
-			const double t20 = t4 * t19;
-			const double t21 = t17 * t20;
-			const double t22 = t14 + t21;
-			const double t23 = 0x1.ccccccccccccdp1 /* 18/5 */ * t5;
-			const double t24 = t3 + t23;
-			const double t25 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t9;
+			const double t4 = 1.75 * t3;
+			const double t5 = x0 * x1;
+			const double t6 = t2 * t5;
+			const double t7 = t4 + t6;
+			const double t8 = t5 * t5;
+			const double t9 = 0.5 * t8;
+			const double t10 = t7 + t9;
+			const double t11 = x1 * x1;
+			const double t12 = t5 * t11;
+			const double t13 = 0x1.999999999999ap-3 /* 1/5 */ * t12;
+			const double t14 = t10 + t13;
+			const double t15 = t11 * t11;
+			const double t16 = 0x1.999999999999ap-5 /* 1/20 */ * t15;
+			const double t17 = t14 + t16;
+			const double t18 = y0 * y0;
+			const double t19 = t18 * y0;
+			const double t20 = t17 * t19;
+			const double t21 = 0.75 * t3;
+			const double t22 = t6 + t21;
+			const double t23 = 0x1.ccccccccccccdp-1 /* 9/10 */ * t8;
+			const double t24 = t22 + t23;
+			const double t25 = 0x1.3333333333333p-1 /* 3/5 */ * t12;
 			const double t26 = t24 + t25;
-			const double t27 = f * t18;
-			const double t28 = t26 * t27;
-			const double t29 = t22 + t28;
-			const double t30 = 0x1.999999999999ap-1 /* 4/5 */ * t2;
-			const double t31 = 0x1.2492492492492p-1 /* 4/7 */ * t8;
-			const double t32 = t30 + t31;
-			const double t33 = f * f;
-			const double t34 = f * t33;
-			const double t35 = t4 * t34;
-			const double t36 = t32 * t35;
-			const double t37 = t29 + t36;
-			const double t38 = s * t37;
-			acc0 = acc0 + t38;
+			const double t27 = 0.25 * t15;
+			const double t28 = t26 + t27;
+			const double t29 = y0 * y1;
+			const double t30 = t29 * y0;
+			const double t31 = t28 * t30;
+			const double t32 = t20 + t31;
+			const double t33 = 0.25 * t3;
+			const double t34 = 0x1.3333333333333p-1 /* 3/5 */ * t6;
+			const double t35 = t33 + t34;
+			const double t36 = t23 + t35;
+			const double t37 = t12 + t36;
+			const double t38 = 0.75 * t15;
+			const double t39 = t37 + t38;
+			const double t40 = t29 * y1;
+			const double t41 = t39 * t40;
+			const double t42 = t32 + t41;
+			const double t43 = 0x1.999999999999ap-5 /* 1/20 */ * t3;
+			const double t44 = 0x1.999999999999ap-3 /* 1/5 */ * t6;
+			const double t45 = t43 + t44;
+			const double t46 = t9 + t45;
+			const double t47 = t12 + t46;
+			const double t48 = 1.75 * t15;
+			const double t49 = t47 + t48;
+			const double t50 = y1 * y1;
+			const double t51 = t50 * y1;
+			const double t52 = t49 * t51;
+			const double t53 = t42 + t52;
+			const double t54 = s * t53;
+			acc0 = acc0 + t54;
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^3 y^4; scheme even-power.
- * Cost per item: 30 mul, 15 add; 1 accumulators, 13 values alive, depth 12. */
+/* integral of x^3 y^4; scheme matrix.
+ * Cost per item: 36 mul, 21 add; 1 accumulators, 13 values alive, depth 13. */
 void ew_ring_x3y4_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1307,55 +1344,67 @@ void ew_ring_x3y4_portable(
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = b * b;
+			const double t2 = y0 * y0;
 			const double t3 = t2 * t2;
-			const double t4 = b * f;
-			const double t5 = t4 * t4;
-			const double t6 = 2.0 * t5;
-			const double t7 = t3 + t6;
-			const double t8 = f * f;
-			const double t9 = t8 * t8;
-			const double t10 = 0x1.999999999999ap-3 /* 1/5 */ * t9;
-			const double t11 = t7 + t10;
-			const double t12 = a * a;
-			const double t13 = a * t12;
-			const double t14 = t11 * t13;
-			const double t15 = 4.0 * t2;
-			const double t16 = 0x1.3333333333333p1 /* 12/5 */ * t8;
-			const double t17 = t15 + t16;
-			const double t18 = a * e;
-			const double t19 = a * t18;
-			const double t20 = t4 * t19;
-			const double t21 = t17 * t20;
-			const double t22 = t14 + t21;
-			const double t23 = 0x1.ccccccccccccdp1 /* 18/5 */ * t5;
-			const double t24 = t3 + t23;
-			const double t25 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t9;
+			const double t4 = 1.75 * t3;
+			const double t5 = y0 * y1;
+			const double t6 = t2 * t5;
+			const double t7 = t4 + t6;
+			const double t8 = t5 * t5;
+			const double t9 = 0.5 * t8;
+			const double t10 = t7 + t9;
+			const double t11 = y1 * y1;
+			const double t12 = t5 * t11;
+			const double t13 = 0x1.999999999999ap-3 /* 1/5 */ * t12;
+			const double t14 = t10 + t13;
+			const double t15 = t11 * t11;
+			const double t16 = 0x1.999999999999ap-5 /* 1/20 */ * t15;
+			const double t17 = t14 + t16;
+			const double t18 = x0 * x0;
+			const double t19 = t18 * x0;
+			const double t20 = t17 * t19;
+			const double t21 = 0.75 * t3;
+			const double t22 = t6 + t21;
+			const double t23 = 0x1.ccccccccccccdp-1 /* 9/10 */ * t8;
+			const double t24 = t22 + t23;
+			const double t25 = 0x1.3333333333333p-1 /* 3/5 */ * t12;
 			const double t26 = t24 + t25;
-			const double t27 = e * t18;
-			const double t28 = t26 * t27;
-			const double t29 = t22 + t28;
-			const double t30 = 0x1.999999999999ap-1 /* 4/5 */ * t2;
-			const double t31 = 0x1.2492492492492p-1 /* 4/7 */ * t8;
-			const double t32 = t30 + t31;
-			const double t33 = e * e;
-			const double t34 = e * t33;
-			const double t35 = t4 * t34;
-			const double t36 = t32 * t35;
-			const double t37 = t29 + t36;
-			const double t38 = s * t37;
-			acc0 = acc0 + t38;
+			const double t27 = 0.25 * t15;
+			const double t28 = t26 + t27;
+			const double t29 = x0 * x1;
+			const double t30 = t29 * x0;
+			const double t31 = t28 * t30;
+			const double t32 = t20 + t31;
+			const double t33 = 0.25 * t3;
+			const double t34 = 0x1.3333333333333p-1 /* 3/5 */ * t6;
+			const double t35 = t33 + t34;
+			const double t36 = t23 + t35;
+			const double t37 = t12 + t36;
+			const double t38 = 0.75 * t15;
+			const double t39 = t37 + t38;
+			const double t40 = t29 * x1;
+			const double t41 = t39 * t40;
+			const double t42 = t32 + t41;
+			const double t43 = 0x1.999999999999ap-5 /* 1/20 */ * t3;
+			const double t44 = 0x1.999999999999ap-3 /* 1/5 */ * t6;
+			const double t45 = t43 + t44;
+			const double t46 = t9 + t45;
+			const double t47 = t12 + t46;
+			const double t48 = 1.75 * t15;
+			const double t49 = t47 + t48;
+			const double t50 = x1 * x1;
+			const double t51 = t50 * x1;
+			const double t52 = t49 * t51;
+			const double t53 = t42 + t52;
+			const double t54 = s * t53;
+			acc0 = acc0 + t54;
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^2 y^5; scheme even-power.
- * Cost per item: 25 mul, 14 add; 1 accumulators, 12 values alive, depth 11. */
+/* integral of x^2 y^5; scheme matrix.
+ * Cost per item: 35 mul, 19 add; 1 accumulators, 13 values alive, depth 14. */
 void ew_ring_x2y5_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1370,49 +1419,64 @@ void ew_ring_x2y5_portable(
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = b * b;
-			const double t3 = t2 * t2;
-			const double t4 = 0x1.3333333333333p-2 /* 3/10 */ * t3;
-			const double t5 = b * f;
-			const double t6 = t5 * t5;
-			const double t7 = t4 + t6;
-			const double t8 = f * f;
-			const double t9 = t8 * t8;
-			const double t10 = 0x1.3333333333333p-2 /* 3/10 */ * t9;
-			const double t11 = t7 + t10;
-			const double t12 = a * a;
-			const double t13 = b * t12;
-			const double t14 = t11 * t13;
-			const double t15 = 0x1.3333333333333p0 /* 6/5 */ * t6;
-			const double t16 = t3 + t15;
-			const double t17 = 0x1.5f15f15f15f16p-4 /* 3/35 */ * t9;
-			const double t18 = t16 + t17;
-			const double t19 = a * e;
-			const double t20 = f * t19;
-			const double t21 = t18 * t20;
-			const double t22 = t14 + t21;
-			const double t23 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
-			const double t24 = 0x1.3333333333333p-1 /* 3/5 */ * t6;
-			const double t25 = t23 + t24;
-			const double t26 = 0x1.b6db6db6db6dbp-3 /* 3/14 */ * t9;
-			const double t27 = t25 + t26;
-			const double t28 = e * e;
-			const double t29 = b * t28;
-			const double t30 = t27 * t29;
-			const double t31 = t22 + t30;
-			const double t32 = s * t31;
-			acc0 = acc0 + t32;
+			const double t2 = y0 * y0;
+			const double t3 = t2 * y0;
+			const double t4 = t2 * t3;
+			const double t5 = 0x1.0cccccccccccdp1 /* 21/10 */ * t4;
+			const double t6 = y0 * y1;
+			const double t7 = t3 * t6;
+			const double t8 = 1.5 * t7;
+			const double t9 = t5 + t8;
+			const double t10 = t6 * t6;
+			const double t11 = t10 * y0;
+			const double t12 = t9 + t11;
+			const double t13 = t10 * y1;
+			const double t14 = 0x1.3333333333333p-1 /* 3/5 */ * t13;
+			const double t15 = t12 + t14;
+			const double t16 = y1 * y1;
+			const double t17 = t16 * y1;
+			const double t18 = t6 * t17;
+			const double t19 = 0x1.3333333333333p-2 /* 3/10 */ * t18;
+			const double t20 = t15 + t19;
+			const double t21 = t16 * t17;
+			const double t22 = 0x1.999999999999ap-4 /* 1/10 */ * t21;
+			const double t23 = t20 + t22;
+			const double t24 = x0 * x0;
+			const double t25 = t23 * t24;
+			const double t26 = 0x1.3333333333333p-1 /* 3/5 */ * t4;
+			const double t27 = t7 + t26;
+			const double t28 = 0x1.3333333333333p0 /* 6/5 */ * t11;
+			const double t29 = t27 + t28;
+			const double t30 = 0x1.3333333333333p0 /* 6/5 */ * t13;
+			const double t31 = t29 + t30;
+			const double t32 = t18 + t31;
+			const double t33 = 0x1.3333333333333p-1 /* 3/5 */ * t21;
+			const double t34 = t32 + t33;
+			const double t35 = x0 * x1;
+			const double t36 = t34 * t35;
+			const double t37 = t25 + t36;
+			const double t38 = 0x1.999999999999ap-4 /* 1/10 */ * t4;
+			const double t39 = 0x1.3333333333333p-2 /* 3/10 */ * t7;
+			const double t40 = t38 + t39;
+			const double t41 = 0x1.3333333333333p-1 /* 3/5 */ * t11;
+			const double t42 = t40 + t41;
+			const double t43 = t13 + t42;
+			const double t44 = 1.5 * t18;
+			const double t45 = t43 + t44;
+			const double t46 = 0x1.0cccccccccccdp1 /* 21/10 */ * t21;
+			const double t47 = t45 + t46;
+			const double t48 = x1 * x1;
+			const double t49 = t47 * t48;
+			const double t50 = t37 + t49;
+			const double t51 = s * t50;
+			acc0 = acc0 + t51;
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^1 y^6; scheme even-power.
- * Cost per item: 24 mul, 12 add; 1 accumulators, 11 values alive, depth 12. */
+/* integral of x^1 y^6; scheme matrix.
+ * Cost per item: 31 mul, 15 add; 1 accumulators, 12 values alive, depth 14. */
 void ew_ring_x1y6_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1424,42 +1488,52 @@ void ew_ring_x1y6_portable(
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
-			const double b = y0 + y1;
-			const double t0 = b * b;
-			const double t1 = b * t0;
+			const double t0 = y0 * y0;
+			const double t1 = t0 * y0;
 			const double t2 = t1 * t1;
 			const double t3 = 7.0 * t2;
-			const double f = y1 - y0;
-			const double t4 = b * f;
-			const double t5 = t4 * t4;
-			const double t6 = t0 * t5;
-			const double t7 = 35.0 * t6;
+			const double t4 = t0 * t0;
+			const double t5 = y0 * y1;
+			const double t6 = t5 * t4;
+			const double t7 = 6.0 * t6;
 			const double t8 = t3 + t7;
-			const double t9 = f * f;
-			const double t10 = t5 * t9;
-			const double t11 = 21.0 * t10;
+			const double t9 = t5 * t5;
+			const double t10 = t0 * t9;
+			const double t11 = 5.0 * t10;
 			const double t12 = t8 + t11;
-			const double t13 = f * t9;
-			const double t14 = t13 * t13;
+			const double t13 = t5 * t9;
+			const double t14 = 4.0 * t13;
 			const double t15 = t12 + t14;
-			const double a = x0 + x1;
-			const double t16 = a * t15;
-			const double t17 = t0 * t0;
-			const double t18 = 14.0 * t17;
-			const double t19 = 28.0 * t5;
-			const double t20 = t18 + t19;
-			const double t21 = t9 * t9;
-			const double t22 = 6.0 * t21;
-			const double t23 = t20 + t22;
-			const double e = x1 - x0;
-			const double t24 = e * t4;
-			const double t25 = t23 * t24;
-			const double t26 = t16 + t25;
-			const double t27 = x0 * y1;
-			const double t28 = x1 * y0;
-			const double s = t27 - t28;
-			const double t29 = s * t26;
-			acc0 = acc0 + t29;
+			const double t16 = y1 * y1;
+			const double t17 = t9 * t16;
+			const double t18 = 3.0 * t17;
+			const double t19 = t15 + t18;
+			const double t20 = t16 * t16;
+			const double t21 = t5 * t20;
+			const double t22 = 2.0 * t21;
+			const double t23 = t19 + t22;
+			const double t24 = t16 * y1;
+			const double t25 = t24 * t24;
+			const double t26 = t23 + t25;
+			const double t27 = t26 * x0;
+			const double t28 = 2.0 * t6;
+			const double t29 = t2 + t28;
+			const double t30 = 3.0 * t10;
+			const double t31 = t29 + t30;
+			const double t32 = t14 + t31;
+			const double t33 = 5.0 * t17;
+			const double t34 = t32 + t33;
+			const double t35 = 6.0 * t21;
+			const double t36 = t34 + t35;
+			const double t37 = 7.0 * t25;
+			const double t38 = t36 + t37;
+			const double t39 = t38 * x1;
+			const double t40 = t27 + t39;
+			const double t41 = x0 * y1;
+			const double t42 = x1 * y0;
+			const double s = t41 - t42;
+			const double t43 = s * t40;
+			acc0 = acc0 + t43;
 		}
 		sum[lane] = acc0;
 	}
@@ -1552,8 +1626,8 @@ void ew_ring_x8y0_portable(
 	}
 }
 
-/* integral of x^7 y^1; scheme even-power.
- * Cost per item: 22 mul, 13 add; 1 accumulators, 12 values alive, depth 12. */
+/* integral of x^7 y^1; scheme matrix.
+ * Cost per item: 38 mul, 17 add; 1 accumulators, 14 values alive, depth 16. */
 void ew_ring_x7y1_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1565,48 +1639,68 @@ void ew_ring_x7y1_portable(
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
-			const double t0 = x0 * y1;
-			const double t1 = x1 * y0;
-			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = a * a;
-			const double t3 = a * t2;
-			const double t4 = t3 * t3;
-			const double t5 = 0x1.2492492492492p-3 /* 1/7 */ * t4;
-			const double t6 = a * e;
-			const double t7 = t6 * t6;
-			const double t8 = t2 * t7;
-			const double t9 = t5 + t8;
-			const double t10 = e * e;
-			const double t11 = t7 * t10;
-			const double t12 = t9 + t11;
-			const double t13 = e * t10;
-			const double t14 = t13 * t13;
-			const double t15 = 0x1.2492492492492p-3 /* 1/7 */ * t14;
-			const double t16 = t12 + t15;
-			const double t17 = a * b;
-			const double t18 = t16 * t17;
-			const double t19 = 0x1.5555555555555p-2 /* 1/3 */ * t4;
-			const double t20 = t8 + t19;
-			const double t21 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t11;
-			const double t22 = t20 + t21;
-			const double t23 = 0x1.0410410410410p-6 /* 1/63 */ * t14;
-			const double t24 = t22 + t23;
-			const double t25 = e * f;
-			const double t26 = t24 * t25;
-			const double t27 = t18 + t26;
-			const double t28 = s * t27;
-			acc0 = acc0 + t28;
+			const double t0 = x0 * x0;
+			const double t1 = t0 * t0;
+			const double t2 = t0 * x0;
+			const double t3 = t2 * t1;
+			const double t4 = 8.0 * t3;
+			const double t5 = t0 * t2;
+			const double t6 = x0 * x1;
+			const double t7 = t6 * t5;
+			const double t8 = 7.0 * t7;
+			const double t9 = t4 + t8;
+			const double t10 = t6 * t6;
+			const double t11 = t2 * t10;
+			const double t12 = 6.0 * t11;
+			const double t13 = t9 + t12;
+			const double t14 = t6 * t10;
+			const double t15 = t14 * x0;
+			const double t16 = 5.0 * t15;
+			const double t17 = t13 + t16;
+			const double t18 = t14 * x1;
+			const double t19 = 4.0 * t18;
+			const double t20 = t17 + t19;
+			const double t21 = x1 * x1;
+			const double t22 = t21 * x1;
+			const double t23 = t10 * t22;
+			const double t24 = 3.0 * t23;
+			const double t25 = t20 + t24;
+			const double t26 = t21 * t22;
+			const double t27 = t6 * t26;
+			const double t28 = 2.0 * t27;
+			const double t29 = t25 + t28;
+			const double t30 = t21 * t21;
+			const double t31 = t22 * t30;
+			const double t32 = t29 + t31;
+			const double t33 = t32 * y0;
+			const double t34 = 2.0 * t7;
+			const double t35 = t3 + t34;
+			const double t36 = 3.0 * t11;
+			const double t37 = t35 + t36;
+			const double t38 = 4.0 * t15;
+			const double t39 = t37 + t38;
+			const double t40 = 5.0 * t18;
+			const double t41 = t39 + t40;
+			const double t42 = 6.0 * t23;
+			const double t43 = t41 + t42;
+			const double t44 = 7.0 * t27;
+			const double t45 = t43 + t44;
+			const double t46 = 8.0 * t31;
+			const double t47 = t45 + t46;
+			const double t48 = t47 * y1;
+			const double t49 = t33 + t48;
+			const double t50 = x0 * y1;
+			const double t51 = x1 * y0;
+			const double s = t50 - t51;
+			const double t52 = s * t49;
+			acc0 = acc0 + t52;
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^6 y^2; scheme even-power.
- * Cost per item: 31 mul, 16 add; 1 accumulators, 14 values alive, depth 13. */
+/* integral of x^6 y^2; scheme matrix.
+ * Cost per item: 40 mul, 22 add; 1 accumulators, 15 values alive, depth 15. */
 void ew_ring_x6y2_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1618,60 +1712,75 @@ void ew_ring_x6y2_portable(
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
-			const double t0 = x0 * y1;
-			const double t1 = x1 * y0;
-			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = a * a;
-			const double t3 = a * t2;
-			const double t4 = t3 * t3;
-			const double t5 = 0x1.5555555555555p-2 /* 1/3 */ * t4;
-			const double t6 = a * e;
-			const double t7 = t6 * t6;
-			const double t8 = t2 * t7;
-			const double t9 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t8;
-			const double t10 = t5 + t9;
-			const double t11 = e * e;
-			const double t12 = t7 * t11;
-			const double t13 = t10 + t12;
-			const double t14 = e * t11;
-			const double t15 = t14 * t14;
-			const double t16 = 0x1.8618618618618p-5 /* 1/21 */ * t15;
-			const double t17 = t13 + t16;
-			const double t18 = b * b;
-			const double t19 = t17 * t18;
-			const double t20 = t2 * t2;
-			const double t21 = 0x1.5555555555555p0 /* 4/3 */ * t20;
-			const double t22 = 0x1.5555555555555p1 /* 8/3 */ * t7;
-			const double t23 = t21 + t22;
-			const double t24 = t11 * t11;
-			const double t25 = 0x1.2492492492492p-1 /* 4/7 */ * t24;
-			const double t26 = t23 + t25;
-			const double t27 = b * f;
-			const double t28 = t6 * t27;
-			const double t29 = t26 * t28;
-			const double t30 = t19 + t29;
-			const double t31 = 0x1.c71c71c71c71cp-4 /* 1/9 */ * t4;
-			const double t32 = t8 + t31;
-			const double t33 = 0x1.6db6db6db6db7p-1 /* 5/7 */ * t12;
+			const double t0 = x0 * x0;
+			const double t1 = t0 * x0;
+			const double t2 = t1 * t1;
+			const double t3 = 0x1.ddddddddddddep0 /* 28/15 */ * t2;
+			const double t4 = t0 * t0;
+			const double t5 = x0 * x1;
+			const double t6 = t5 * t4;
+			const double t7 = 0x1.6666666666666p0 /* 7/5 */ * t6;
+			const double t8 = t3 + t7;
+			const double t9 = t5 * t5;
+			const double t10 = t0 * t9;
+			const double t11 = t8 + t10;
+			const double t12 = t5 * t9;
+			const double t13 = 0x1.5555555555555p-1 /* 2/3 */ * t12;
+			const double t14 = t11 + t13;
+			const double t15 = x1 * x1;
+			const double t16 = t9 * t15;
+			const double t17 = 0x1.999999999999ap-2 /* 2/5 */ * t16;
+			const double t18 = t14 + t17;
+			const double t19 = t15 * t15;
+			const double t20 = t5 * t19;
+			const double t21 = 0x1.999999999999ap-3 /* 1/5 */ * t20;
+			const double t22 = t18 + t21;
+			const double t23 = t15 * x1;
+			const double t24 = t23 * t23;
+			const double t25 = 0x1.1111111111111p-4 /* 1/15 */ * t24;
+			const double t26 = t22 + t25;
+			const double t27 = y0 * y0;
+			const double t28 = t26 * t27;
+			const double t29 = 0x1.ddddddddddddep-2 /* 7/15 */ * t2;
+			const double t30 = 0x1.999999999999ap-1 /* 4/5 */ * t6;
+			const double t31 = t29 + t30;
+			const double t32 = t10 + t31;
+			const double t33 = 0x1.1111111111111p0 /* 16/15 */ * t12;
 			const double t34 = t32 + t33;
-			const double t35 = 0x1.2f684bda12f68p-5 /* 1/27 */ * t15;
-			const double t36 = t34 + t35;
-			const double t37 = f * f;
-			const double t38 = t36 * t37;
-			const double t39 = t30 + t38;
-			const double t40 = s * t39;
-			acc0 = acc0 + t40;
+			const double t35 = t16 + t34;
+			const double t36 = 0x1.999999999999ap-1 /* 4/5 */ * t20;
+			const double t37 = t35 + t36;
+			const double t38 = 0x1.ddddddddddddep-2 /* 7/15 */ * t24;
+			const double t39 = t37 + t38;
+			const double t40 = y0 * y1;
+			const double t41 = t39 * t40;
+			const double t42 = t28 + t41;
+			const double t43 = 0x1.1111111111111p-4 /* 1/15 */ * t2;
+			const double t44 = 0x1.999999999999ap-3 /* 1/5 */ * t6;
+			const double t45 = t43 + t44;
+			const double t46 = 0x1.999999999999ap-2 /* 2/5 */ * t10;
+			const double t47 = t45 + t46;
+			const double t48 = t13 + t47;
+			const double t49 = t16 + t48;
+			const double t50 = 0x1.6666666666666p0 /* 7/5 */ * t20;
+			const double t51 = t49 + t50;
+			const double t52 = 0x1.ddddddddddddep0 /* 28/15 */ * t24;
+			const double t53 = t51 + t52;
+			const double t54 = y1 * y1;
+			const double t55 = t53 * t54;
+			const double t56 = t42 + t55;
+			const double t57 = x0 * y1;
+			const double t58 = x1 * y0;
+			const double s = t57 - t58;
+			const double t59 = s * t56;
+			acc0 = acc0 + t59;
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^5 y^3; scheme even-power.
- * Cost per item: 31 mul, 17 add; 1 accumulators, 13 values alive, depth 12. */
+/* integral of x^5 y^3; scheme matrix.
+ * Cost per item: 46 mul, 25 add; 1 accumulators, 13 values alive, depth 15. */
 void ew_ring_x5y3_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1686,58 +1795,81 @@ void ew_ring_x5y3_portable(
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = a * a;
-			const double t3 = t2 * t2;
-			const double t4 = a * e;
-			const double t5 = t4 * t4;
-			const double t6 = 0x1.aaaaaaaaaaaabp1 /* 10/3 */ * t5;
-			const double t7 = t3 + t6;
-			const double t8 = e * e;
-			const double t9 = t8 * t8;
-			const double t10 = t7 + t9;
-			const double t11 = b * b;
-			const double t12 = b * t11;
-			const double t13 = a * t12;
-			const double t14 = t10 * t13;
-			const double t15 = 5.0 * t3;
-			const double t16 = 6.0 * t5;
-			const double t17 = t15 + t16;
-			const double t18 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t9;
-			const double t19 = t17 + t18;
-			const double t20 = b * f;
-			const double t21 = b * t20;
-			const double t22 = e * t21;
-			const double t23 = t19 * t22;
-			const double t24 = t14 + t23;
-			const double t25 = t3 + t16;
-			const double t26 = 0x1.1249249249249p1 /* 15/7 */ * t9;
-			const double t27 = t25 + t26;
-			const double t28 = f * t20;
-			const double t29 = a * t28;
-			const double t30 = t27 * t29;
-			const double t31 = t24 + t30;
-			const double t32 = 0x1.6db6db6db6db7p0 /* 10/7 */ * t5;
-			const double t33 = t3 + t32;
-			const double t34 = 0x1.c71c71c71c71cp-4 /* 1/9 */ * t9;
-			const double t35 = t33 + t34;
-			const double t36 = f * f;
-			const double t37 = f * t36;
-			const double t38 = e * t37;
-			const double t39 = t35 * t38;
-			const double t40 = t31 + t39;
-			const double t41 = s * t40;
-			acc0 = acc0 + t41;
+			const double t2 = x0 * x0;
+			const double t3 = t2 * x0;
+			const double t4 = t2 * t3;
+			const double t5 = 0x1.ddddddddddddep0 /* 28/15 */ * t4;
+			const double t6 = x0 * x1;
+			const double t7 = t3 * t6;
+			const double t8 = 0x1.2aaaaaaaaaaabp0 /* 7/6 */ * t7;
+			const double t9 = t5 + t8;
+			const double t10 = t6 * t6;
+			const double t11 = t10 * x0;
+			const double t12 = 0x1.5555555555555p-1 /* 2/3 */ * t11;
+			const double t13 = t9 + t12;
+			const double t14 = t10 * x1;
+			const double t15 = 0x1.5555555555555p-2 /* 1/3 */ * t14;
+			const double t16 = t13 + t15;
+			const double t17 = x1 * x1;
+			const double t18 = t17 * x1;
+			const double t19 = t6 * t18;
+			const double t20 = 0x1.1111111111111p-3 /* 2/15 */ * t19;
+			const double t21 = t16 + t20;
+			const double t22 = t17 * t18;
+			const double t23 = 0x1.1111111111111p-5 /* 1/30 */ * t22;
+			const double t24 = t21 + t23;
+			const double t25 = y0 * y0;
+			const double t26 = t25 * y0;
+			const double t27 = t24 * t26;
+			const double t28 = 0x1.6666666666666p-1 /* 7/10 */ * t4;
+			const double t29 = t7 + t28;
+			const double t30 = t11 + t29;
+			const double t31 = 0x1.999999999999ap-1 /* 4/5 */ * t14;
+			const double t32 = t30 + t31;
+			const double t33 = 0.5 * t19;
+			const double t34 = t32 + t33;
+			const double t35 = 0x1.999999999999ap-3 /* 1/5 */ * t22;
+			const double t36 = t34 + t35;
+			const double t37 = y0 * y1;
+			const double t38 = t37 * y0;
+			const double t39 = t36 * t38;
+			const double t40 = t27 + t39;
+			const double t41 = 0x1.999999999999ap-3 /* 1/5 */ * t4;
+			const double t42 = 0.5 * t7;
+			const double t43 = t41 + t42;
+			const double t44 = 0x1.999999999999ap-1 /* 4/5 */ * t11;
+			const double t45 = t43 + t44;
+			const double t46 = t14 + t45;
+			const double t47 = t19 + t46;
+			const double t48 = 0x1.6666666666666p-1 /* 7/10 */ * t22;
+			const double t49 = t47 + t48;
+			const double t50 = t37 * y1;
+			const double t51 = t49 * t50;
+			const double t52 = t40 + t51;
+			const double t53 = 0x1.1111111111111p-5 /* 1/30 */ * t4;
+			const double t54 = 0x1.1111111111111p-3 /* 2/15 */ * t7;
+			const double t55 = t53 + t54;
+			const double t56 = 0x1.5555555555555p-2 /* 1/3 */ * t11;
+			const double t57 = t55 + t56;
+			const double t58 = 0x1.5555555555555p-1 /* 2/3 */ * t14;
+			const double t59 = t57 + t58;
+			const double t60 = 0x1.2aaaaaaaaaaabp0 /* 7/6 */ * t19;
+			const double t61 = t59 + t60;
+			const double t62 = 0x1.ddddddddddddep0 /* 28/15 */ * t22;
+			const double t63 = t61 + t62;
+			const double t64 = y1 * y1;
+			const double t65 = t64 * y1;
+			const double t66 = t63 * t65;
+			const double t67 = t52 + t66;
+			const double t68 = s * t67;
+			acc0 = acc0 + t68;
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^4 y^4; scheme even-power.
- * Cost per item: 35 mul, 18 add; 1 accumulators, 14 values alive, depth 13. */
+/* integral of x^4 y^4; scheme matrix.
+ * Cost per item: 45 mul, 26 add; 1 accumulators, 15 values alive, depth 14. */
 void ew_ring_x4y4_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1752,63 +1884,81 @@ void ew_ring_x4y4_portable(
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = b * b;
+			const double t2 = y0 * y0;
 			const double t3 = t2 * t2;
-			const double t4 = 0.5 * t3;
-			const double t5 = b * f;
-			const double t6 = t5 * t5;
-			const double t7 = t4 + t6;
-			const double t8 = f * f;
-			const double t9 = t8 * t8;
-			const double t10 = 0x1.999999999999ap-4 /* 1/10 */ * t9;
-			const double t11 = t7 + t10;
-			const double t12 = a * a;
-			const double t13 = t12 * t12;
-			const double t14 = t11 * t13;
-			const double t15 = 0x1.5555555555555p1 /* 8/3 */ * t2;
-			const double t16 = 0x1.999999999999ap0 /* 8/5 */ * t8;
+			const double t4 = 70.0 * t3;
+			const double t5 = y0 * y1;
+			const double t6 = t2 * t5;
+			const double t7 = 35.0 * t6;
+			const double t8 = t4 + t7;
+			const double t9 = t5 * t5;
+			const double t10 = 15.0 * t9;
+			const double t11 = t8 + t10;
+			const double t12 = y1 * y1;
+			const double t13 = t5 * t12;
+			const double t14 = 5.0 * t13;
+			const double t15 = t11 + t14;
+			const double t16 = t12 * t12;
 			const double t17 = t15 + t16;
-			const double t18 = a * e;
-			const double t19 = t12 * t18;
-			const double t20 = t5 * t19;
-			const double t21 = t17 * t20;
-			const double t22 = t14 + t21;
-			const double t23 = 0x1.ccccccccccccdp1 /* 18/5 */ * t6;
-			const double t24 = t3 + t23;
-			const double t25 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t9;
-			const double t26 = t24 + t25;
-			const double t27 = t18 * t18;
-			const double t28 = t26 * t27;
-			const double t29 = t22 + t28;
-			const double t30 = 0x1.999999999999ap0 /* 8/5 */ * t2;
-			const double t31 = 0x1.2492492492492p0 /* 8/7 */ * t8;
-			const double t32 = t30 + t31;
-			const double t33 = e * e;
-			const double t34 = t18 * t33;
-			const double t35 = t5 * t34;
-			const double t36 = t32 * t35;
-			const double t37 = t29 + t36;
-			const double t38 = 0x1.999999999999ap-4 /* 1/10 */ * t3;
-			const double t39 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t6;
+			const double t18 = x0 * x0;
+			const double t19 = t18 * t18;
+			const double t20 = t17 * t19;
+			const double t21 = 35.0 * t3;
+			const double t22 = 40.0 * t6;
+			const double t23 = t21 + t22;
+			const double t24 = 30.0 * t9;
+			const double t25 = t23 + t24;
+			const double t26 = 16.0 * t13;
+			const double t27 = t25 + t26;
+			const double t28 = 5.0 * t16;
+			const double t29 = t27 + t28;
+			const double t30 = x0 * x1;
+			const double t31 = t18 * t30;
+			const double t32 = t29 * t31;
+			const double t33 = t20 + t32;
+			const double t34 = 15.0 * t3;
+			const double t35 = 30.0 * t6;
+			const double t36 = t34 + t35;
+			const double t37 = 36.0 * t9;
+			const double t38 = t36 + t37;
+			const double t39 = 30.0 * t13;
 			const double t40 = t38 + t39;
-			const double t41 = 0x1.c71c71c71c71cp-5 /* 1/18 */ * t9;
+			const double t41 = 15.0 * t16;
 			const double t42 = t40 + t41;
-			const double t43 = t33 * t33;
+			const double t43 = t30 * t30;
 			const double t44 = t42 * t43;
-			const double t45 = t37 + t44;
-			const double t46 = s * t45;
-			acc0 = acc0 + t46;
+			const double t45 = t33 + t44;
+			const double t46 = 5.0 * t3;
+			const double t47 = 16.0 * t6;
+			const double t48 = t46 + t47;
+			const double t49 = t24 + t48;
+			const double t50 = 40.0 * t13;
+			const double t51 = t49 + t50;
+			const double t52 = 35.0 * t16;
+			const double t53 = t51 + t52;
+			const double t54 = x1 * x1;
+			const double t55 = t30 * t54;
+			const double t56 = t53 * t55;
+			const double t57 = t45 + t56;
+			const double t58 = 5.0 * t6;
+			const double t59 = t3 + t58;
+			const double t60 = t10 + t59;
+			const double t61 = 35.0 * t13;
+			const double t62 = t60 + t61;
+			const double t63 = 70.0 * t16;
+			const double t64 = t62 + t63;
+			const double t65 = t54 * t54;
+			const double t66 = t64 * t65;
+			const double t67 = t57 + t66;
+			const double t68 = s * t67;
+			acc0 = acc0 + t68;
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^3 y^5; scheme even-power.
- * Cost per item: 31 mul, 17 add; 1 accumulators, 13 values alive, depth 12. */
+/* integral of x^3 y^5; scheme matrix.
+ * Cost per item: 46 mul, 25 add; 1 accumulators, 13 values alive, depth 15. */
 void ew_ring_x3y5_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1823,58 +1973,81 @@ void ew_ring_x3y5_portable(
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = b * b;
-			const double t3 = t2 * t2;
-			const double t4 = b * f;
-			const double t5 = t4 * t4;
-			const double t6 = 0x1.aaaaaaaaaaaabp1 /* 10/3 */ * t5;
-			const double t7 = t3 + t6;
-			const double t8 = f * f;
-			const double t9 = t8 * t8;
-			const double t10 = t7 + t9;
-			const double t11 = a * a;
-			const double t12 = a * t11;
-			const double t13 = b * t12;
-			const double t14 = t10 * t13;
-			const double t15 = 5.0 * t3;
-			const double t16 = 6.0 * t5;
-			const double t17 = t15 + t16;
-			const double t18 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t9;
-			const double t19 = t17 + t18;
-			const double t20 = a * e;
-			const double t21 = a * t20;
-			const double t22 = f * t21;
-			const double t23 = t19 * t22;
-			const double t24 = t14 + t23;
-			const double t25 = t3 + t16;
-			const double t26 = 0x1.1249249249249p1 /* 15/7 */ * t9;
-			const double t27 = t25 + t26;
-			const double t28 = e * t20;
-			const double t29 = b * t28;
-			const double t30 = t27 * t29;
-			const double t31 = t24 + t30;
-			const double t32 = 0x1.6db6db6db6db7p0 /* 10/7 */ * t5;
-			const double t33 = t3 + t32;
-			const double t34 = 0x1.c71c71c71c71cp-4 /* 1/9 */ * t9;
-			const double t35 = t33 + t34;
-			const double t36 = e * e;
-			const double t37 = e * t36;
-			const double t38 = f * t37;
-			const double t39 = t35 * t38;
-			const double t40 = t31 + t39;
-			const double t41 = s * t40;
-			acc0 = acc0 + t41;
+			const double t2 = y0 * y0;
+			const double t3 = t2 * y0;
+			const double t4 = t2 * t3;
+			const double t5 = 0x1.ddddddddddddep0 /* 28/15 */ * t4;
+			const double t6 = y0 * y1;
+			const double t7 = t3 * t6;
+			const double t8 = 0x1.2aaaaaaaaaaabp0 /* 7/6 */ * t7;
+			const double t9 = t5 + t8;
+			const double t10 = t6 * t6;
+			const double t11 = t10 * y0;
+			const double t12 = 0x1.5555555555555p-1 /* 2/3 */ * t11;
+			const double t13 = t9 + t12;
+			const double t14 = t10 * y1;
+			const double t15 = 0x1.5555555555555p-2 /* 1/3 */ * t14;
+			const double t16 = t13 + t15;
+			const double t17 = y1 * y1;
+			const double t18 = t17 * y1;
+			const double t19 = t6 * t18;
+			const double t20 = 0x1.1111111111111p-3 /* 2/15 */ * t19;
+			const double t21 = t16 + t20;
+			const double t22 = t17 * t18;
+			const double t23 = 0x1.1111111111111p-5 /* 1/30 */ * t22;
+			const double t24 = t21 + t23;
+			const double t25 = x0 * x0;
+			const double t26 = t25 * x0;
+			const double t27 = t24 * t26;
+			const double t28 = 0x1.6666666666666p-1 /* 7/10 */ * t4;
+			const double t29 = t7 + t28;
+			const double t30 = t11 + t29;
+			const double t31 = 0x1.999999999999ap-1 /* 4/5 */ * t14;
+			const double t32 = t30 + t31;
+			const double t33 = 0.5 * t19;
+			const double t34 = t32 + t33;
+			const double t35 = 0x1.999999999999ap-3 /* 1/5 */ * t22;
+			const double t36 = t34 + t35;
+			const double t37 = x0 * x1;
+			const double t38 = t37 * x0;
+			const double t39 = t36 * t38;
+			const double t40 = t27 + t39;
+			const double t41 = 0x1.999999999999ap-3 /* 1/5 */ * t4;
+			const double t42 = 0.5 * t7;
+			const double t43 = t41 + t42;
+			const double t44 = 0x1.999999999999ap-1 /* 4/5 */ * t11;
+			const double t45 = t43 + t44;
+			const double t46 = t14 + t45;
+			const double t47 = t19 + t46;
+			const double t48 = 0x1.6666666666666p-1 /* 7/10 */ * t22;
+			const double t49 = t47 + t48;
+			const double t50 = t37 * x1;
+			const double t51 = t49 * t50;
+			const double t52 = t40 + t51;
+			const double t53 = 0x1.1111111111111p-5 /* 1/30 */ * t4;
+			const double t54 = 0x1.1111111111111p-3 /* 2/15 */ * t7;
+			const double t55 = t53 + t54;
+			const double t56 = 0x1.5555555555555p-2 /* 1/3 */ * t11;
+			const double t57 = t55 + t56;
+			const double t58 = 0x1.5555555555555p-1 /* 2/3 */ * t14;
+			const double t59 = t57 + t58;
+			const double t60 = 0x1.2aaaaaaaaaaabp0 /* 7/6 */ * t19;
+			const double t61 = t59 + t60;
+			const double t62 = 0x1.ddddddddddddep0 /* 28/15 */ * t22;
+			const double t63 = t61 + t62;
+			const double t64 = x1 * x1;
+			const double t65 = t64 * x1;
+			const double t66 = t63 * t65;
+			const double t67 = t52 + t66;
+			const double t68 = s * t67;
+			acc0 = acc0 + t68;
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^2 y^6; scheme even-power.
- * Cost per item: 31 mul, 16 add; 1 accumulators, 14 values alive, depth 13. */
+/* integral of x^2 y^6; scheme matrix.
+ * Cost per item: 40 mul, 22 add; 1 accumulators, 15 values alive, depth 15. */
 void ew_ring_x2y6_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1886,60 +2059,75 @@ void ew_ring_x2y6_portable(
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
-			const double t0 = x0 * y1;
-			const double t1 = x1 * y0;
-			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = b * b;
-			const double t3 = b * t2;
-			const double t4 = t3 * t3;
-			const double t5 = 0x1.5555555555555p-2 /* 1/3 */ * t4;
-			const double t6 = b * f;
-			const double t7 = t6 * t6;
-			const double t8 = t2 * t7;
-			const double t9 = 0x1.aaaaaaaaaaaabp0 /* 5/3 */ * t8;
-			const double t10 = t5 + t9;
-			const double t11 = f * f;
-			const double t12 = t7 * t11;
-			const double t13 = t10 + t12;
-			const double t14 = f * t11;
-			const double t15 = t14 * t14;
-			const double t16 = 0x1.8618618618618p-5 /* 1/21 */ * t15;
-			const double t17 = t13 + t16;
-			const double t18 = a * a;
-			const double t19 = t17 * t18;
-			const double t20 = t2 * t2;
-			const double t21 = 0x1.5555555555555p0 /* 4/3 */ * t20;
-			const double t22 = 0x1.5555555555555p1 /* 8/3 */ * t7;
-			const double t23 = t21 + t22;
-			const double t24 = t11 * t11;
-			const double t25 = 0x1.2492492492492p-1 /* 4/7 */ * t24;
-			const double t26 = t23 + t25;
-			const double t27 = a * e;
-			const double t28 = t6 * t27;
-			const double t29 = t26 * t28;
-			const double t30 = t19 + t29;
-			const double t31 = 0x1.c71c71c71c71cp-4 /* 1/9 */ * t4;
-			const double t32 = t8 + t31;
-			const double t33 = 0x1.6db6db6db6db7p-1 /* 5/7 */ * t12;
+			const double t0 = y0 * y0;
+			const double t1 = t0 * y0;
+			const double t2 = t1 * t1;
+			const double t3 = 0x1.ddddddddddddep0 /* 28/15 */ * t2;
+			const double t4 = t0 * t0;
+			const double t5 = y0 * y1;
+			const double t6 = t5 * t4;
+			const double t7 = 0x1.6666666666666p0 /* 7/5 */ * t6;
+			const double t8 = t3 + t7;
+			const double t9 = t5 * t5;
+			const double t10 = t0 * t9;
+			const double t11 = t8 + t10;
+			const double t12 = t5 * t9;
+			const double t13 = 0x1.5555555555555p-1 /* 2/3 */ * t12;
+			const double t14 = t11 + t13;
+			const double t15 = y1 * y1;
+			const double t16 = t9 * t15;
+			const double t17 = 0x1.999999999999ap-2 /* 2/5 */ * t16;
+			const double t18 = t14 + t17;
+			const double t19 = t15 * t15;
+			const double t20 = t5 * t19;
+			const double t21 = 0x1.999999999999ap-3 /* 1/5 */ * t20;
+			const double t22 = t18 + t21;
+			const double t23 = t15 * y1;
+			const double t24 = t23 * t23;
+			const double t25 = 0x1.1111111111111p-4 /* 1/15 */ * t24;
+			const double t26 = t22 + t25;
+			const double t27 = x0 * x0;
+			const double t28 = t26 * t27;
+			const double t29 = 0x1.ddddddddddddep-2 /* 7/15 */ * t2;
+			const double t30 = 0x1.999999999999ap-1 /* 4/5 */ * t6;
+			const double t31 = t29 + t30;
+			const double t32 = t10 + t31;
+			const double t33 = 0x1.1111111111111p0 /* 16/15 */ * t12;
 			const double t34 = t32 + t33;
-			const double t35 = 0x1.2f684bda12f68p-5 /* 1/27 */ * t15;
-			const double t36 = t34 + t35;
-			const double t37 = e * e;
-			const double t38 = t36 * t37;
-			const double t39 = t30 + t38;
-			const double t40 = s * t39;
-			acc0 = acc0 + t40;
+			const double t35 = t16 + t34;
+			const double t36 = 0x1.999999999999ap-1 /* 4/5 */ * t20;
+			const double t37 = t35 + t36;
+			const double t38 = 0x1.ddddddddddddep-2 /* 7/15 */ * t24;
+			const double t39 = t37 + t38;
+			const double t40 = x0 * x1;
+			const double t41 = t39 * t40;
+			const double t42 = t28 + t41;
+			const double t43 = 0x1.1111111111111p-4 /* 1/15 */ * t2;
+			const double t44 = 0x1.999999999999ap-3 /* 1/5 */ * t6;
+			const double t45 = t43 + t44;
+			const double t46 = 0x1.999999999999ap-2 /* 2/5 */ * t10;
+			const double t47 = t45 + t46;
+			const double t48 = t13 + t47;
+			const double t49 = t16 + t48;
+			const double t50 = 0x1.6666666666666p0 /* 7/5 */ * t20;
+			const double t51 = t49 + t50;
+			const double t52 = 0x1.ddddddddddddep0 /* 28/15 */ * t24;
+			const double t53 = t51 + t52;
+			const double t54 = x1 * x1;
+			const double t55 = t53 * t54;
+			const double t56 = t42 + t55;
+			const double t57 = x0 * y1;
+			const double t58 = x1 * y0;
+			const double s = t57 - t58;
+			const double t59 = s * t56;
+			acc0 = acc0 + t59;
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^1 y^7; scheme even-power.
- * Cost per item: 22 mul, 13 add; 1 accumulators, 12 values alive, depth 12. */
+/* integral of x^1 y^7; scheme matrix.
+ * Cost per item: 38 mul, 17 add; 1 accumulators, 14 values alive, depth 16. */
 void ew_ring_x1y7_portable(
 	const double *x, const double *y, double cx, size_t count, double *sum)
 {
@@ -1951,41 +2139,61 @@ void ew_ring_x1y7_portable(
 			const double y0 = y[i];
 			const double x1 = x[i + 1];
 			const double y1 = y[i + 1];
-			const double t0 = x0 * y1;
-			const double t1 = x1 * y0;
-			const double s = t0 - t1;
-			const double a = x0 + x1;
-			const double e = x1 - x0;
-			const double b = y0 + y1;
-			const double f = y1 - y0;
-			const double t2 = b * b;
-			const double t3 = b * t2;
-			const double t4 = t3 * t3;
-			const double t5 = 0x1.2492492492492p-3 /* 1/7 */ * t4;
-			const double t6 = b * f;
-			const double t7 = t6 * t6;
-			const double t8 = t2 * t7;
-			const double t9 = t5 + t8;
-			const double t10 = f * f;
-			const double t11 = t7 * t10;
-			const double t12 = t9 + t11;
-			const double t13 = f * t10;
-			const double t14 = t13 * t13;
-			const double t15 = 0x1.2492492492492p-3 /* 1/7 */ * t14;
-			const double t16 = t12 + t15;
-			const double t17 = a * b;
-			const double t18 = t16 * t17;
-			const double t19 = 0x1.5555555555555p-2 /* 1/3 */ * t4;
-			const double t20 = t8 + t19;
-			const double t21 = 0x1.b6db6db6db6dbp-2 /* 3/7 */ * t11;
-			const double t22 = t20 + t21;
-			const double t23 = 0x1.0410410410410p-6 /* 1/63 */ * t14;
-			const double t24 = t22 + t23;
-			const double t25 = e * f;
-			const double t26 = t24 * t25;
-			const double t27 = t18 + t26;
-			const double t28 = s * t27;
-			acc0 = acc0 + t28;
+			const double t0 = y0 * y0;
+			const double t1 = t0 * t0;
+			const double t2 = t0 * y0;
+			const double t3 = t2 * t1;
+			const double t4 = 8.0 * t3;
+			const double t5 = t0 * t2;
+			const double t6 = y0 * y1;
+			const double t7 = t6 * t5;
+			const double t8 = 7.0 * t7;
+			const double t9 = t4 + t8;
+			const double t10 = t6 * t6;
+			const double t11 = t2 * t10;
+			const double t12 = 6.0 * t11;
+			const double t13 = t9 + t12;
+			const double t14 = t6 * t10;
+			const double t15 = t14 * y0;
+			const double t16 = 5.0 * t15;
+			const double t17 = t13 + t16;
+			const double t18 = t14 * y1;
+			const double t19 = 4.0 * t18;
+			const double t20 = t17 + t19;
+			const double t21 = y1 * y1;
+			const double t22 = t21 * y1;
+			const double t23 = t10 * t22;
+			const double t24 = 3.0 * t23;
+			const double t25 = t20 + t24;
+			const double t26 = t21 * t22;
+			const double t27 = t6 * t26;
+			const double t28 = 2.0 * t27;
+			const double t29 = t25 + t28;
+			const double t30 = t21 * t21;
+			const double t31 = t22 * t30;
+			const double t32 = t29 + t31;
+			const double t33 = t32 * x0;
+			const double t34 = 2.0 * t7;
+			const double t35 = t3 + t34;
+			const double t36 = 3.0 * t11;
+			const double t37 = t35 + t36;
+			const double t38 = 4.0 * t15;
+			const double t39 = t37 + t38;
+			const double t40 = 5.0 * t18;
+			const double t41 = t39 + t40;
+			const double t42 = 6.0 * t23;
+			const double t43 = t41 + t42;
+			const double t44 = 7.0 * t27;
+			const double t45 = t43 + t44;
+			const double t46 = 8.0 * t31;
+			const double t47 = t45 + t46;
+			const double t48 = t47 * x1;
+			const double t49 = t33 + t48;
+			const double t50 = x0 * y1;
+			const double t51 = x1 * y0;
+			const double s = t50 - t51;
+			const double t52 = s * t49;
+			acc0 = acc0 + t52;
 		}
 		sum[lane] = acc0;
 	}

@@ -997,8 +997,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y0f_fma(
 	}
 }
 
-/* integral of x^6 y^1; scheme even-power.
- * Cost per item: 24 mul or fma, 5 add; 1 accumulators, 11 values alive, depth 11. */
+/* integral of x^6 y^1; scheme matrix.
+ * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_x6y1f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1010,42 +1010,48 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y1f_fma(
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
-			const float a = x0 + x1;
-			const float e = x1 - x0;
-			const float t0 = a * e;
+			const float t0 = x0 * x0;
 			const float t1 = t0 * t0;
-			const float t2 = a * a;
-			const float t3 = t2 * t2;
-			const float t4 = 14.0f * t3;
-			const float t5 = fmaf(28.0f, t1, t4);
-			const float t6 = e * e;
-			const float t7 = t6 * t6;
-			const float t8 = fmaf(6.0f, t7, t5);
-			const float t9 = t2 * t1;
-			const float t10 = a * t2;
-			const float t11 = t10 * t10;
-			const float t12 = 7.0f * t11;
-			const float t13 = fmaf(35.0f, t9, t12);
-			const float t14 = t1 * t6;
-			const float t15 = fmaf(21.0f, t14, t13);
-			const float t16 = e * t6;
-			const float t17 = fmaf(t16, t16, t15);
-			const float b = y0 + y1;
-			const float t18 = b * t17;
-			const float f = y1 - y0;
-			const float t19 = f * t0;
-			const float t20 = fmaf(t8, t19, t18);
-			const float t21 = x0 * y1;
-			const float t22 = x1 * y0;
-			const float s = t21 - t22;
-			acc0 = fmaf(s, t20, acc0);
+			const float t2 = x0 * x1;
+			const float t3 = t2 * t1;
+			const float t4 = t0 * x0;
+			const float t5 = t4 * t4;
+			const float t6 = fmaf(2.0f, t3, t5);
+			const float t7 = t2 * t2;
+			const float t8 = t0 * t7;
+			const float t9 = fmaf(3.0f, t8, t6);
+			const float t10 = t2 * t7;
+			const float t11 = 4.0f * t10;
+			const float t12 = t11 + t9;
+			const float t13 = x1 * x1;
+			const float t14 = t7 * t13;
+			const float t15 = fmaf(5.0f, t14, t12);
+			const float t16 = t13 * t13;
+			const float t17 = t2 * t16;
+			const float t18 = fmaf(6.0f, t17, t15);
+			const float t19 = t13 * x1;
+			const float t20 = t19 * t19;
+			const float t21 = fmaf(7.0f, t20, t18);
+			const float t22 = 7.0f * t5;
+			const float t23 = fmaf(6.0f, t3, t22);
+			const float t24 = fmaf(5.0f, t8, t23);
+			const float t25 = t24 + t11;
+			const float t26 = fmaf(3.0f, t14, t25);
+			const float t27 = fmaf(2.0f, t17, t26);
+			const float t28 = t27 + t20;
+			const float t29 = t28 * y0;
+			const float t30 = fmaf(t21, y1, t29);
+			const float t31 = x0 * y1;
+			const float t32 = x1 * y0;
+			const float s = t31 - t32;
+			acc0 = fmaf(s, t30, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^5 y^2; scheme even-power.
- * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 11 values alive, depth 9. */
+/* integral of x^5 y^2; scheme matrix.
+ * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_x5y2f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1060,40 +1066,49 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y2f_fma(
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
-			const float a = x0 + x1;
-			const float e = x1 - x0;
-			const float b = y0 + y1;
-			const float f = y1 - y0;
-			const float t2 = a * a;
-			const float t3 = t2 * t2;
-			const float t4 = a * e;
-			const float t5 = t4 * t4;
-			const float t6 = fmaf(0x1.333334p-2f /* 3/10 */, t3, t5);
-			const float t7 = e * e;
-			const float t8 = t7 * t7;
-			const float t9 = fmaf(0x1.333334p-2f /* 3/10 */, t8, t6);
-			const float t10 = b * b;
-			const float t11 = a * t10;
-			const float t12 = t9 * t11;
-			const float t13 = fmaf(0x1.333334p0f /* 6/5 */, t5, t3);
-			const float t14 = fmaf(0x1.5f15f2p-4f /* 3/35 */, t8, t13);
-			const float t15 = b * f;
-			const float t16 = e * t15;
-			const float t17 = fmaf(t14, t16, t12);
-			const float t18 = 0x1.99999ap-4f /* 1/10 */ * t3;
-			const float t19 = fmaf(0x1.333334p-1f /* 3/5 */, t5, t18);
-			const float t20 = fmaf(0x1.b6db6ep-3f /* 3/14 */, t8, t19);
-			const float t21 = f * f;
-			const float t22 = a * t21;
-			const float t23 = fmaf(t20, t22, t17);
-			acc0 = fmaf(s, t23, acc0);
+			const float t2 = x0 * x0;
+			const float t3 = t2 * x0;
+			const float t4 = t2 * t3;
+			const float t5 = 3.5f * t4;
+			const float t6 = x0 * x1;
+			const float t7 = t3 * t6;
+			const float t8 = fmaf(2.5f, t7, t5);
+			const float t9 = t6 * t6;
+			const float t10 = t9 * x0;
+			const float t11 = fmaf(0x1.aaaaaap0f /* 5/3 */, t10, t8);
+			const float t12 = t9 * x1;
+			const float t13 = t11 + t12;
+			const float t14 = x1 * x1;
+			const float t15 = t14 * x1;
+			const float t16 = t6 * t15;
+			const float t17 = fmaf(0.5f, t16, t13);
+			const float t18 = t14 * t15;
+			const float t19 = fmaf(0x1.555556p-3f /* 1/6 */, t18, t17);
+			const float t20 = y0 * y0;
+			const float t21 = t19 * t20;
+			const float t22 = fmaf(0x1.aaaaaap0f /* 5/3 */, t7, t4);
+			const float t23 = fmaf(2.0f, t10, t22);
+			const float t24 = fmaf(2.0f, t12, t23);
+			const float t25 = fmaf(0x1.aaaaaap0f /* 5/3 */, t16, t24);
+			const float t26 = t18 + t25;
+			const float t27 = y0 * y1;
+			const float t28 = fmaf(t26, t27, t21);
+			const float t29 = 0x1.555556p-3f /* 1/6 */ * t4;
+			const float t30 = fmaf(0.5f, t7, t29);
+			const float t31 = t10 + t30;
+			const float t32 = fmaf(0x1.aaaaaap0f /* 5/3 */, t12, t31);
+			const float t33 = fmaf(2.5f, t16, t32);
+			const float t34 = fmaf(3.5f, t18, t33);
+			const float t35 = y1 * y1;
+			const float t36 = fmaf(t34, t35, t28);
+			acc0 = fmaf(s, t36, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^4 y^3; scheme even-power.
- * Cost per item: 30 mul or fma, 5 add; 1 accumulators, 13 values alive, depth 10. */
+/* integral of x^4 y^3; scheme matrix.
+ * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_FMA void ew_ring_x4y3f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1108,45 +1123,53 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y3f_fma(
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
-			const float a = x0 + x1;
-			const float e = x1 - x0;
-			const float b = y0 + y1;
-			const float f = y1 - y0;
-			const float t2 = a * a;
+			const float t2 = x0 * x0;
 			const float t3 = t2 * t2;
-			const float t4 = a * e;
-			const float t5 = t4 * t4;
-			const float t6 = fmaf(2.0f, t5, t3);
-			const float t7 = e * e;
-			const float t8 = t7 * t7;
-			const float t9 = fmaf(0x1.99999ap-3f /* 1/5 */, t8, t6);
-			const float t10 = b * b;
-			const float t11 = b * t10;
-			const float t12 = t9 * t11;
-			const float t13 = 4.0f * t2;
-			const float t14 = fmaf(0x1.333334p1f /* 12/5 */, t7, t13);
-			const float t15 = b * f;
-			const float t16 = b * t15;
-			const float t17 = t4 * t16;
-			const float t18 = fmaf(t14, t17, t12);
-			const float t19 = fmaf(0x1.ccccccp1f /* 18/5 */, t5, t3);
-			const float t20 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t19);
-			const float t21 = f * t15;
-			const float t22 = fmaf(t20, t21, t18);
-			const float t23 = 0x1.99999ap-1f /* 4/5 */ * t2;
-			const float t24 = fmaf(0x1.24924ap-1f /* 4/7 */, t7, t23);
-			const float t25 = f * f;
-			const float t26 = f * t25;
-			const float t27 = t4 * t26;
-			const float t28 = fmaf(t24, t27, t22);
-			acc0 = fmaf(s, t28, acc0);
+			const float t4 = x0 * x1;
+			const float t5 = t2 * t4;
+			const float t6 = fmaf(1.75f, t3, t5);
+			const float t7 = t4 * t4;
+			const float t8 = 0.5f * t7;
+			const float t9 = t6 + t8;
+			const float t10 = x1 * x1;
+			const float t11 = t4 * t10;
+			const float t12 = fmaf(0x1.99999ap-3f /* 1/5 */, t11, t9);
+			const float t13 = t10 * t10;
+			const float t14 = fmaf(0x1.99999ap-5f /* 1/20 */, t13, t12);
+			const float t15 = y0 * y0;
+			const float t16 = t15 * y0;
+			const float t17 = t14 * t16;
+			const float t18 = fmaf(0.75f, t3, t5);
+			const float t19 = 0x1.ccccccp-1f /* 9/10 */ * t7;
+			const float t20 = t18 + t19;
+			const float t21 = fmaf(0x1.333334p-1f /* 3/5 */, t11, t20);
+			const float t22 = fmaf(0.25f, t13, t21);
+			const float t23 = y0 * y1;
+			const float t24 = t23 * y0;
+			const float t25 = fmaf(t22, t24, t17);
+			const float t26 = 0.25f * t3;
+			const float t27 = fmaf(0x1.333334p-1f /* 3/5 */, t5, t26);
+			const float t28 = t19 + t27;
+			const float t29 = t11 + t28;
+			const float t30 = fmaf(0.75f, t13, t29);
+			const float t31 = t23 * y1;
+			const float t32 = fmaf(t30, t31, t25);
+			const float t33 = 0x1.99999ap-5f /* 1/20 */ * t3;
+			const float t34 = fmaf(0x1.99999ap-3f /* 1/5 */, t5, t33);
+			const float t35 = t8 + t34;
+			const float t36 = t11 + t35;
+			const float t37 = fmaf(1.75f, t13, t36);
+			const float t38 = y1 * y1;
+			const float t39 = t38 * y1;
+			const float t40 = fmaf(t37, t39, t32);
+			acc0 = fmaf(s, t40, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^3 y^4; scheme even-power.
- * Cost per item: 30 mul or fma, 5 add; 1 accumulators, 13 values alive, depth 10. */
+/* integral of x^3 y^4; scheme matrix.
+ * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_FMA void ew_ring_x3y4f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1161,45 +1184,53 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y4f_fma(
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
-			const float a = x0 + x1;
-			const float e = x1 - x0;
-			const float b = y0 + y1;
-			const float f = y1 - y0;
-			const float t2 = b * b;
+			const float t2 = y0 * y0;
 			const float t3 = t2 * t2;
-			const float t4 = b * f;
-			const float t5 = t4 * t4;
-			const float t6 = fmaf(2.0f, t5, t3);
-			const float t7 = f * f;
-			const float t8 = t7 * t7;
-			const float t9 = fmaf(0x1.99999ap-3f /* 1/5 */, t8, t6);
-			const float t10 = a * a;
-			const float t11 = a * t10;
-			const float t12 = t9 * t11;
-			const float t13 = 4.0f * t2;
-			const float t14 = fmaf(0x1.333334p1f /* 12/5 */, t7, t13);
-			const float t15 = a * e;
-			const float t16 = a * t15;
-			const float t17 = t4 * t16;
-			const float t18 = fmaf(t14, t17, t12);
-			const float t19 = fmaf(0x1.ccccccp1f /* 18/5 */, t5, t3);
-			const float t20 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t19);
-			const float t21 = e * t15;
-			const float t22 = fmaf(t20, t21, t18);
-			const float t23 = 0x1.99999ap-1f /* 4/5 */ * t2;
-			const float t24 = fmaf(0x1.24924ap-1f /* 4/7 */, t7, t23);
-			const float t25 = e * e;
-			const float t26 = e * t25;
-			const float t27 = t4 * t26;
-			const float t28 = fmaf(t24, t27, t22);
-			acc0 = fmaf(s, t28, acc0);
+			const float t4 = y0 * y1;
+			const float t5 = t2 * t4;
+			const float t6 = fmaf(1.75f, t3, t5);
+			const float t7 = t4 * t4;
+			const float t8 = 0.5f * t7;
+			const float t9 = t6 + t8;
+			const float t10 = y1 * y1;
+			const float t11 = t4 * t10;
+			const float t12 = fmaf(0x1.99999ap-3f /* 1/5 */, t11, t9);
+			const float t13 = t10 * t10;
+			const float t14 = fmaf(0x1.99999ap-5f /* 1/20 */, t13, t12);
+			const float t15 = x0 * x0;
+			const float t16 = t15 * x0;
+			const float t17 = t14 * t16;
+			const float t18 = fmaf(0.75f, t3, t5);
+			const float t19 = 0x1.ccccccp-1f /* 9/10 */ * t7;
+			const float t20 = t18 + t19;
+			const float t21 = fmaf(0x1.333334p-1f /* 3/5 */, t11, t20);
+			const float t22 = fmaf(0.25f, t13, t21);
+			const float t23 = x0 * x1;
+			const float t24 = t23 * x0;
+			const float t25 = fmaf(t22, t24, t17);
+			const float t26 = 0.25f * t3;
+			const float t27 = fmaf(0x1.333334p-1f /* 3/5 */, t5, t26);
+			const float t28 = t19 + t27;
+			const float t29 = t11 + t28;
+			const float t30 = fmaf(0.75f, t13, t29);
+			const float t31 = t23 * x1;
+			const float t32 = fmaf(t30, t31, t25);
+			const float t33 = 0x1.99999ap-5f /* 1/20 */ * t3;
+			const float t34 = fmaf(0x1.99999ap-3f /* 1/5 */, t5, t33);
+			const float t35 = t8 + t34;
+			const float t36 = t11 + t35;
+			const float t37 = fmaf(1.75f, t13, t36);
+			const float t38 = x1 * x1;
+			const float t39 = t38 * x1;
+			const float t40 = fmaf(t37, t39, t32);
+			acc0 = fmaf(s, t40, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^2 y^5; scheme even-power.
- * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 11 values alive, depth 9. */
+/* integral of x^2 y^5; scheme matrix.
+ * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_x2y5f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1214,40 +1245,49 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y5f_fma(
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
-			const float a = x0 + x1;
-			const float e = x1 - x0;
-			const float b = y0 + y1;
-			const float f = y1 - y0;
-			const float t2 = b * b;
-			const float t3 = t2 * t2;
-			const float t4 = b * f;
-			const float t5 = t4 * t4;
-			const float t6 = fmaf(0x1.333334p-2f /* 3/10 */, t3, t5);
-			const float t7 = f * f;
-			const float t8 = t7 * t7;
-			const float t9 = fmaf(0x1.333334p-2f /* 3/10 */, t8, t6);
-			const float t10 = a * a;
-			const float t11 = b * t10;
-			const float t12 = t9 * t11;
-			const float t13 = fmaf(0x1.333334p0f /* 6/5 */, t5, t3);
-			const float t14 = fmaf(0x1.5f15f2p-4f /* 3/35 */, t8, t13);
-			const float t15 = a * e;
-			const float t16 = f * t15;
-			const float t17 = fmaf(t14, t16, t12);
-			const float t18 = 0x1.99999ap-4f /* 1/10 */ * t3;
-			const float t19 = fmaf(0x1.333334p-1f /* 3/5 */, t5, t18);
-			const float t20 = fmaf(0x1.b6db6ep-3f /* 3/14 */, t8, t19);
-			const float t21 = e * e;
-			const float t22 = b * t21;
-			const float t23 = fmaf(t20, t22, t17);
-			acc0 = fmaf(s, t23, acc0);
+			const float t2 = y0 * y0;
+			const float t3 = t2 * y0;
+			const float t4 = t2 * t3;
+			const float t5 = 0x1.0cccccp1f /* 21/10 */ * t4;
+			const float t6 = y0 * y1;
+			const float t7 = t3 * t6;
+			const float t8 = fmaf(1.5f, t7, t5);
+			const float t9 = t6 * t6;
+			const float t10 = t9 * y0;
+			const float t11 = t8 + t10;
+			const float t12 = t9 * y1;
+			const float t13 = fmaf(0x1.333334p-1f /* 3/5 */, t12, t11);
+			const float t14 = y1 * y1;
+			const float t15 = t14 * y1;
+			const float t16 = t6 * t15;
+			const float t17 = fmaf(0x1.333334p-2f /* 3/10 */, t16, t13);
+			const float t18 = t14 * t15;
+			const float t19 = fmaf(0x1.99999ap-4f /* 1/10 */, t18, t17);
+			const float t20 = x0 * x0;
+			const float t21 = t19 * t20;
+			const float t22 = fmaf(0x1.333334p-1f /* 3/5 */, t4, t7);
+			const float t23 = fmaf(0x1.333334p0f /* 6/5 */, t10, t22);
+			const float t24 = fmaf(0x1.333334p0f /* 6/5 */, t12, t23);
+			const float t25 = t16 + t24;
+			const float t26 = fmaf(0x1.333334p-1f /* 3/5 */, t18, t25);
+			const float t27 = x0 * x1;
+			const float t28 = fmaf(t26, t27, t21);
+			const float t29 = 0x1.99999ap-4f /* 1/10 */ * t4;
+			const float t30 = fmaf(0x1.333334p-2f /* 3/10 */, t7, t29);
+			const float t31 = fmaf(0x1.333334p-1f /* 3/5 */, t10, t30);
+			const float t32 = t12 + t31;
+			const float t33 = fmaf(1.5f, t16, t32);
+			const float t34 = fmaf(0x1.0cccccp1f /* 21/10 */, t18, t33);
+			const float t35 = x1 * x1;
+			const float t36 = fmaf(t34, t35, t28);
+			acc0 = fmaf(s, t36, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^1 y^6; scheme even-power.
- * Cost per item: 24 mul or fma, 5 add; 1 accumulators, 11 values alive, depth 11. */
+/* integral of x^1 y^6; scheme matrix.
+ * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_x1y6f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1259,35 +1299,41 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y6f_fma(
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
-			const float b = y0 + y1;
-			const float f = y1 - y0;
-			const float t0 = b * f;
+			const float t0 = y0 * y0;
 			const float t1 = t0 * t0;
-			const float t2 = b * b;
-			const float t3 = t2 * t2;
-			const float t4 = 14.0f * t3;
-			const float t5 = fmaf(28.0f, t1, t4);
-			const float t6 = f * f;
-			const float t7 = t6 * t6;
-			const float t8 = fmaf(6.0f, t7, t5);
-			const float t9 = t2 * t1;
-			const float t10 = b * t2;
-			const float t11 = t10 * t10;
-			const float t12 = 7.0f * t11;
-			const float t13 = fmaf(35.0f, t9, t12);
-			const float t14 = t1 * t6;
-			const float t15 = fmaf(21.0f, t14, t13);
-			const float t16 = f * t6;
-			const float t17 = fmaf(t16, t16, t15);
-			const float a = x0 + x1;
-			const float t18 = a * t17;
-			const float e = x1 - x0;
-			const float t19 = e * t0;
-			const float t20 = fmaf(t8, t19, t18);
-			const float t21 = x0 * y1;
-			const float t22 = x1 * y0;
-			const float s = t21 - t22;
-			acc0 = fmaf(s, t20, acc0);
+			const float t2 = y0 * y1;
+			const float t3 = t2 * t1;
+			const float t4 = t0 * y0;
+			const float t5 = t4 * t4;
+			const float t6 = fmaf(2.0f, t3, t5);
+			const float t7 = t2 * t2;
+			const float t8 = t0 * t7;
+			const float t9 = fmaf(3.0f, t8, t6);
+			const float t10 = t2 * t7;
+			const float t11 = 4.0f * t10;
+			const float t12 = t11 + t9;
+			const float t13 = y1 * y1;
+			const float t14 = t7 * t13;
+			const float t15 = fmaf(5.0f, t14, t12);
+			const float t16 = t13 * t13;
+			const float t17 = t2 * t16;
+			const float t18 = fmaf(6.0f, t17, t15);
+			const float t19 = t13 * y1;
+			const float t20 = t19 * t19;
+			const float t21 = fmaf(7.0f, t20, t18);
+			const float t22 = 7.0f * t5;
+			const float t23 = fmaf(6.0f, t3, t22);
+			const float t24 = fmaf(5.0f, t8, t23);
+			const float t25 = t24 + t11;
+			const float t26 = fmaf(3.0f, t14, t25);
+			const float t27 = fmaf(2.0f, t17, t26);
+			const float t28 = t27 + t20;
+			const float t29 = t28 * x0;
+			const float t30 = fmaf(t21, x1, t29);
+			const float t31 = x0 * y1;
+			const float t32 = x1 * y0;
+			const float s = t31 - t32;
+			acc0 = fmaf(s, t30, acc0);
 		}
 		sum[lane] = acc0;
 	}
@@ -1365,8 +1411,8 @@ EW_ATTRIBUTE_FMA void ew_ring_x8y0f_fma(
 	}
 }
 
-/* integral of x^7 y^1; scheme even-power.
- * Cost per item: 22 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 10. */
+/* integral of x^7 y^1; scheme matrix.
+ * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x7y1f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1378,41 +1424,53 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y1f_fma(
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
-			const float a = x0 + x1;
-			const float t0 = a * a;
-			const float t1 = a * t0;
-			const float t2 = t1 * t1;
-			const float e = x1 - x0;
-			const float t3 = a * e;
-			const float t4 = t3 * t3;
-			const float t5 = t0 * t4;
-			const float t6 = fmaf(0x1.555556p-2f /* 1/3 */, t2, t5);
-			const float t7 = e * e;
-			const float t8 = t4 * t7;
-			const float t9 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t6);
-			const float t10 = e * t7;
-			const float t11 = t10 * t10;
-			const float t12 = fmaf(0x1.041042p-6f /* 1/63 */, t11, t9);
-			const float t13 = fmaf(0x1.24924ap-3f /* 1/7 */, t2, t5);
-			const float t14 = t13 + t8;
-			const float t15 = fmaf(0x1.24924ap-3f /* 1/7 */, t11, t14);
-			const float b = y0 + y1;
-			const float t16 = a * b;
-			const float t17 = t15 * t16;
-			const float f = y1 - y0;
-			const float t18 = e * f;
-			const float t19 = fmaf(t12, t18, t17);
-			const float t20 = x0 * y1;
-			const float t21 = x1 * y0;
-			const float s = t20 - t21;
-			acc0 = fmaf(s, t19, acc0);
+			const float t0 = x0 * x0;
+			const float t1 = t0 * x0;
+			const float t2 = t0 * t1;
+			const float t3 = x0 * x1;
+			const float t4 = t3 * t2;
+			const float t5 = t0 * t0;
+			const float t6 = t1 * t5;
+			const float t7 = fmaf(2.0f, t4, t6);
+			const float t8 = t3 * t3;
+			const float t9 = t1 * t8;
+			const float t10 = fmaf(3.0f, t9, t7);
+			const float t11 = t3 * t8;
+			const float t12 = t11 * x0;
+			const float t13 = fmaf(4.0f, t12, t10);
+			const float t14 = t11 * x1;
+			const float t15 = fmaf(5.0f, t14, t13);
+			const float t16 = x1 * x1;
+			const float t17 = t16 * x1;
+			const float t18 = t8 * t17;
+			const float t19 = fmaf(6.0f, t18, t15);
+			const float t20 = t16 * t17;
+			const float t21 = t3 * t20;
+			const float t22 = fmaf(7.0f, t21, t19);
+			const float t23 = t16 * t16;
+			const float t24 = t17 * t23;
+			const float t25 = fmaf(8.0f, t24, t22);
+			const float t26 = 8.0f * t6;
+			const float t27 = fmaf(7.0f, t4, t26);
+			const float t28 = fmaf(6.0f, t9, t27);
+			const float t29 = fmaf(5.0f, t12, t28);
+			const float t30 = fmaf(4.0f, t14, t29);
+			const float t31 = fmaf(3.0f, t18, t30);
+			const float t32 = fmaf(2.0f, t21, t31);
+			const float t33 = t32 + t24;
+			const float t34 = t33 * y0;
+			const float t35 = fmaf(t25, y1, t34);
+			const float t36 = x0 * y1;
+			const float t37 = x1 * y0;
+			const float s = t36 - t37;
+			acc0 = fmaf(s, t35, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^6 y^2; scheme even-power.
- * Cost per item: 31 mul or fma, 6 add; 1 accumulators, 14 values alive, depth 12. */
+/* integral of x^6 y^2; scheme matrix.
+ * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x6y2f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1424,50 +1482,60 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y2f_fma(
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
-			const float a = x0 + x1;
-			const float e = x1 - x0;
-			const float t0 = a * e;
+			const float t0 = x0 * x0;
 			const float t1 = t0 * t0;
-			const float t2 = a * a;
-			const float t3 = t2 * t2;
-			const float t4 = 0x1.555556p0f /* 4/3 */ * t3;
-			const float t5 = fmaf(0x1.555556p1f /* 8/3 */, t1, t4);
-			const float t6 = e * e;
-			const float t7 = t6 * t6;
-			const float t8 = fmaf(0x1.24924ap-1f /* 4/7 */, t7, t5);
-			const float t9 = t2 * t1;
-			const float t10 = a * t2;
-			const float t11 = t10 * t10;
-			const float t12 = 0x1.555556p-2f /* 1/3 */ * t11;
-			const float t13 = fmaf(0x1.aaaaaap0f /* 5/3 */, t9, t12);
-			const float t14 = t1 * t6;
-			const float t15 = t13 + t14;
-			const float t16 = e * t6;
-			const float t17 = t16 * t16;
-			const float t18 = fmaf(0x1.861862p-5f /* 1/21 */, t17, t15);
-			const float b = y0 + y1;
-			const float t19 = b * b;
-			const float t20 = t18 * t19;
-			const float f = y1 - y0;
-			const float t21 = b * f;
-			const float t22 = t0 * t21;
-			const float t23 = fmaf(t8, t22, t20);
-			const float t24 = fmaf(0x1.c71c72p-4f /* 1/9 */, t11, t9);
-			const float t25 = fmaf(0x1.6db6dcp-1f /* 5/7 */, t14, t24);
-			const float t26 = fmaf(0x1.2f684cp-5f /* 1/27 */, t17, t25);
-			const float t27 = f * f;
-			const float t28 = fmaf(t26, t27, t23);
-			const float t29 = x0 * y1;
-			const float t30 = x1 * y0;
-			const float s = t29 - t30;
-			acc0 = fmaf(s, t28, acc0);
+			const float t2 = x0 * x1;
+			const float t3 = t2 * t1;
+			const float t4 = t0 * x0;
+			const float t5 = t4 * t4;
+			const float t6 = 0x1.dddddep-2f /* 7/15 */ * t5;
+			const float t7 = fmaf(0x1.99999ap-1f /* 4/5 */, t3, t6);
+			const float t8 = t2 * t2;
+			const float t9 = t0 * t8;
+			const float t10 = t9 + t7;
+			const float t11 = t2 * t8;
+			const float t12 = fmaf(0x1.111112p0f /* 16/15 */, t11, t10);
+			const float t13 = x1 * x1;
+			const float t14 = t8 * t13;
+			const float t15 = t14 + t12;
+			const float t16 = t13 * t13;
+			const float t17 = t2 * t16;
+			const float t18 = fmaf(0x1.99999ap-1f /* 4/5 */, t17, t15);
+			const float t19 = t13 * x1;
+			const float t20 = t19 * t19;
+			const float t21 = fmaf(0x1.dddddep-2f /* 7/15 */, t20, t18);
+			const float t22 = 0x1.dddddep0f /* 28/15 */ * t5;
+			const float t23 = fmaf(0x1.666666p0f /* 7/5 */, t3, t22);
+			const float t24 = t23 + t9;
+			const float t25 = 0x1.555556p-1f /* 2/3 */ * t11;
+			const float t26 = t24 + t25;
+			const float t27 = fmaf(0x1.99999ap-2f /* 2/5 */, t14, t26);
+			const float t28 = fmaf(0x1.99999ap-3f /* 1/5 */, t17, t27);
+			const float t29 = fmaf(0x1.111112p-4f /* 1/15 */, t20, t28);
+			const float t30 = y0 * y0;
+			const float t31 = t29 * t30;
+			const float t32 = y0 * y1;
+			const float t33 = fmaf(t21, t32, t31);
+			const float t34 = 0x1.111112p-4f /* 1/15 */ * t5;
+			const float t35 = fmaf(0x1.99999ap-3f /* 1/5 */, t3, t34);
+			const float t36 = fmaf(0x1.99999ap-2f /* 2/5 */, t9, t35);
+			const float t37 = t25 + t36;
+			const float t38 = t14 + t37;
+			const float t39 = fmaf(0x1.666666p0f /* 7/5 */, t17, t38);
+			const float t40 = fmaf(0x1.dddddep0f /* 28/15 */, t20, t39);
+			const float t41 = y1 * y1;
+			const float t42 = fmaf(t40, t41, t33);
+			const float t43 = x0 * y1;
+			const float t44 = x1 * y0;
+			const float s = t43 - t44;
+			acc0 = fmaf(s, t42, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^5 y^3; scheme even-power.
- * Cost per item: 31 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 10. */
+/* integral of x^5 y^3; scheme matrix.
+ * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x5y3f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1482,48 +1550,60 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y3f_fma(
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
-			const float a = x0 + x1;
-			const float e = x1 - x0;
-			const float b = y0 + y1;
-			const float f = y1 - y0;
-			const float t2 = a * a;
-			const float t3 = t2 * t2;
-			const float t4 = a * e;
-			const float t5 = t4 * t4;
-			const float t6 = fmaf(0x1.aaaaaap1f /* 10/3 */, t5, t3);
-			const float t7 = e * e;
-			const float t8 = t7 * t7;
-			const float t9 = t6 + t8;
-			const float t10 = b * b;
-			const float t11 = b * t10;
-			const float t12 = a * t11;
-			const float t13 = t9 * t12;
-			const float t14 = 6.0f * t5;
-			const float t15 = fmaf(5.0f, t3, t14);
-			const float t16 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t15);
-			const float t17 = b * f;
-			const float t18 = b * t17;
-			const float t19 = e * t18;
-			const float t20 = fmaf(t16, t19, t13);
-			const float t21 = t3 + t14;
-			const float t22 = fmaf(0x1.124924p1f /* 15/7 */, t8, t21);
-			const float t23 = f * t17;
-			const float t24 = a * t23;
-			const float t25 = fmaf(t22, t24, t20);
-			const float t26 = fmaf(0x1.6db6dcp0f /* 10/7 */, t5, t3);
-			const float t27 = fmaf(0x1.c71c72p-4f /* 1/9 */, t8, t26);
-			const float t28 = f * f;
-			const float t29 = f * t28;
-			const float t30 = e * t29;
-			const float t31 = fmaf(t27, t30, t25);
-			acc0 = fmaf(s, t31, acc0);
+			const float t2 = x0 * x0;
+			const float t3 = t2 * x0;
+			const float t4 = t2 * t3;
+			const float t5 = 0x1.dddddep0f /* 28/15 */ * t4;
+			const float t6 = x0 * x1;
+			const float t7 = t3 * t6;
+			const float t8 = fmaf(0x1.2aaaaap0f /* 7/6 */, t7, t5);
+			const float t9 = t6 * t6;
+			const float t10 = t9 * x0;
+			const float t11 = fmaf(0x1.555556p-1f /* 2/3 */, t10, t8);
+			const float t12 = t9 * x1;
+			const float t13 = fmaf(0x1.555556p-2f /* 1/3 */, t12, t11);
+			const float t14 = x1 * x1;
+			const float t15 = t14 * x1;
+			const float t16 = t6 * t15;
+			const float t17 = fmaf(0x1.111112p-3f /* 2/15 */, t16, t13);
+			const float t18 = t14 * t15;
+			const float t19 = fmaf(0x1.111112p-5f /* 1/30 */, t18, t17);
+			const float t20 = y0 * y0;
+			const float t21 = t20 * y0;
+			const float t22 = t19 * t21;
+			const float t23 = fmaf(0x1.666666p-1f /* 7/10 */, t4, t7);
+			const float t24 = t10 + t23;
+			const float t25 = fmaf(0x1.99999ap-1f /* 4/5 */, t12, t24);
+			const float t26 = fmaf(0.5f, t16, t25);
+			const float t27 = fmaf(0x1.99999ap-3f /* 1/5 */, t18, t26);
+			const float t28 = y0 * y1;
+			const float t29 = t28 * y0;
+			const float t30 = fmaf(t27, t29, t22);
+			const float t31 = 0x1.99999ap-3f /* 1/5 */ * t4;
+			const float t32 = fmaf(0.5f, t7, t31);
+			const float t33 = fmaf(0x1.99999ap-1f /* 4/5 */, t10, t32);
+			const float t34 = t12 + t33;
+			const float t35 = t16 + t34;
+			const float t36 = fmaf(0x1.666666p-1f /* 7/10 */, t18, t35);
+			const float t37 = t28 * y1;
+			const float t38 = fmaf(t36, t37, t30);
+			const float t39 = 0x1.111112p-5f /* 1/30 */ * t4;
+			const float t40 = fmaf(0x1.111112p-3f /* 2/15 */, t7, t39);
+			const float t41 = fmaf(0x1.555556p-2f /* 1/3 */, t10, t40);
+			const float t42 = fmaf(0x1.555556p-1f /* 2/3 */, t12, t41);
+			const float t43 = fmaf(0x1.2aaaaap0f /* 7/6 */, t16, t42);
+			const float t44 = fmaf(0x1.dddddep0f /* 28/15 */, t18, t43);
+			const float t45 = y1 * y1;
+			const float t46 = t45 * y1;
+			const float t47 = fmaf(t44, t46, t38);
+			acc0 = fmaf(s, t47, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^4 y^4; scheme even-power.
- * Cost per item: 35 mul or fma, 5 add; 1 accumulators, 13 values alive, depth 11. */
+/* integral of x^4 y^4; scheme matrix.
+ * Cost per item: 45 mul or fma, 6 add; 1 accumulators, 14 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_x4y4f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1538,50 +1618,61 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y4f_fma(
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
-			const float a = x0 + x1;
-			const float e = x1 - x0;
-			const float b = y0 + y1;
-			const float f = y1 - y0;
-			const float t2 = b * b;
+			const float t2 = y0 * y0;
 			const float t3 = t2 * t2;
-			const float t4 = b * f;
-			const float t5 = t4 * t4;
-			const float t6 = fmaf(0.5f, t3, t5);
-			const float t7 = f * f;
-			const float t8 = t7 * t7;
-			const float t9 = fmaf(0x1.99999ap-4f /* 1/10 */, t8, t6);
-			const float t10 = a * a;
-			const float t11 = t10 * t10;
-			const float t12 = t9 * t11;
-			const float t13 = 0x1.555556p1f /* 8/3 */ * t2;
-			const float t14 = fmaf(0x1.99999ap0f /* 8/5 */, t7, t13);
-			const float t15 = a * e;
-			const float t16 = t10 * t15;
-			const float t17 = t4 * t16;
-			const float t18 = fmaf(t14, t17, t12);
-			const float t19 = fmaf(0x1.ccccccp1f /* 18/5 */, t5, t3);
-			const float t20 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t19);
-			const float t21 = t15 * t15;
-			const float t22 = fmaf(t20, t21, t18);
-			const float t23 = 0x1.99999ap0f /* 8/5 */ * t2;
-			const float t24 = fmaf(0x1.24924ap0f /* 8/7 */, t7, t23);
-			const float t25 = e * e;
-			const float t26 = t15 * t25;
-			const float t27 = t4 * t26;
-			const float t28 = fmaf(t24, t27, t22);
-			const float t29 = 0x1.99999ap-4f /* 1/10 */ * t3;
-			const float t30 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t5, t29);
-			const float t31 = fmaf(0x1.c71c72p-5f /* 1/18 */, t8, t30);
-			const float t32 = t25 * t25;
-			const float t33 = fmaf(t31, t32, t28);
-			acc0 = fmaf(s, t33, acc0);
+			const float t4 = 70.0f * t3;
+			const float t5 = y0 * y1;
+			const float t6 = t2 * t5;
+			const float t7 = fmaf(35.0f, t6, t4);
+			const float t8 = t5 * t5;
+			const float t9 = 15.0f * t8;
+			const float t10 = t7 + t9;
+			const float t11 = y1 * y1;
+			const float t12 = t5 * t11;
+			const float t13 = fmaf(5.0f, t12, t10);
+			const float t14 = t11 * t11;
+			const float t15 = t13 + t14;
+			const float t16 = x0 * x0;
+			const float t17 = t16 * t16;
+			const float t18 = t15 * t17;
+			const float t19 = 35.0f * t3;
+			const float t20 = fmaf(40.0f, t6, t19);
+			const float t21 = 30.0f * t8;
+			const float t22 = t20 + t21;
+			const float t23 = fmaf(16.0f, t12, t22);
+			const float t24 = fmaf(5.0f, t14, t23);
+			const float t25 = x0 * x1;
+			const float t26 = t16 * t25;
+			const float t27 = fmaf(t24, t26, t18);
+			const float t28 = 15.0f * t3;
+			const float t29 = fmaf(30.0f, t6, t28);
+			const float t30 = fmaf(36.0f, t8, t29);
+			const float t31 = fmaf(30.0f, t12, t30);
+			const float t32 = fmaf(15.0f, t14, t31);
+			const float t33 = t25 * t25;
+			const float t34 = fmaf(t32, t33, t27);
+			const float t35 = 5.0f * t3;
+			const float t36 = fmaf(16.0f, t6, t35);
+			const float t37 = t21 + t36;
+			const float t38 = fmaf(40.0f, t12, t37);
+			const float t39 = fmaf(35.0f, t14, t38);
+			const float t40 = x1 * x1;
+			const float t41 = t25 * t40;
+			const float t42 = fmaf(t39, t41, t34);
+			const float t43 = fmaf(5.0f, t6, t3);
+			const float t44 = t9 + t43;
+			const float t45 = fmaf(35.0f, t12, t44);
+			const float t46 = fmaf(70.0f, t14, t45);
+			const float t47 = t40 * t40;
+			const float t48 = fmaf(t46, t47, t42);
+			acc0 = fmaf(s, t48, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^3 y^5; scheme even-power.
- * Cost per item: 31 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 10. */
+/* integral of x^3 y^5; scheme matrix.
+ * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x3y5f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1596,48 +1687,60 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y5f_fma(
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
-			const float a = x0 + x1;
-			const float e = x1 - x0;
-			const float b = y0 + y1;
-			const float f = y1 - y0;
-			const float t2 = b * b;
-			const float t3 = t2 * t2;
-			const float t4 = b * f;
-			const float t5 = t4 * t4;
-			const float t6 = fmaf(0x1.aaaaaap1f /* 10/3 */, t5, t3);
-			const float t7 = f * f;
-			const float t8 = t7 * t7;
-			const float t9 = t6 + t8;
-			const float t10 = a * a;
-			const float t11 = a * t10;
-			const float t12 = b * t11;
-			const float t13 = t9 * t12;
-			const float t14 = 6.0f * t5;
-			const float t15 = fmaf(5.0f, t3, t14);
-			const float t16 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t15);
-			const float t17 = a * e;
-			const float t18 = a * t17;
-			const float t19 = f * t18;
-			const float t20 = fmaf(t16, t19, t13);
-			const float t21 = t3 + t14;
-			const float t22 = fmaf(0x1.124924p1f /* 15/7 */, t8, t21);
-			const float t23 = e * t17;
-			const float t24 = b * t23;
-			const float t25 = fmaf(t22, t24, t20);
-			const float t26 = fmaf(0x1.6db6dcp0f /* 10/7 */, t5, t3);
-			const float t27 = fmaf(0x1.c71c72p-4f /* 1/9 */, t8, t26);
-			const float t28 = e * e;
-			const float t29 = e * t28;
-			const float t30 = f * t29;
-			const float t31 = fmaf(t27, t30, t25);
-			acc0 = fmaf(s, t31, acc0);
+			const float t2 = y0 * y0;
+			const float t3 = t2 * y0;
+			const float t4 = t2 * t3;
+			const float t5 = 0x1.dddddep0f /* 28/15 */ * t4;
+			const float t6 = y0 * y1;
+			const float t7 = t3 * t6;
+			const float t8 = fmaf(0x1.2aaaaap0f /* 7/6 */, t7, t5);
+			const float t9 = t6 * t6;
+			const float t10 = t9 * y0;
+			const float t11 = fmaf(0x1.555556p-1f /* 2/3 */, t10, t8);
+			const float t12 = t9 * y1;
+			const float t13 = fmaf(0x1.555556p-2f /* 1/3 */, t12, t11);
+			const float t14 = y1 * y1;
+			const float t15 = t14 * y1;
+			const float t16 = t6 * t15;
+			const float t17 = fmaf(0x1.111112p-3f /* 2/15 */, t16, t13);
+			const float t18 = t14 * t15;
+			const float t19 = fmaf(0x1.111112p-5f /* 1/30 */, t18, t17);
+			const float t20 = x0 * x0;
+			const float t21 = t20 * x0;
+			const float t22 = t19 * t21;
+			const float t23 = fmaf(0x1.666666p-1f /* 7/10 */, t4, t7);
+			const float t24 = t10 + t23;
+			const float t25 = fmaf(0x1.99999ap-1f /* 4/5 */, t12, t24);
+			const float t26 = fmaf(0.5f, t16, t25);
+			const float t27 = fmaf(0x1.99999ap-3f /* 1/5 */, t18, t26);
+			const float t28 = x0 * x1;
+			const float t29 = t28 * x0;
+			const float t30 = fmaf(t27, t29, t22);
+			const float t31 = 0x1.99999ap-3f /* 1/5 */ * t4;
+			const float t32 = fmaf(0.5f, t7, t31);
+			const float t33 = fmaf(0x1.99999ap-1f /* 4/5 */, t10, t32);
+			const float t34 = t12 + t33;
+			const float t35 = t16 + t34;
+			const float t36 = fmaf(0x1.666666p-1f /* 7/10 */, t18, t35);
+			const float t37 = t28 * x1;
+			const float t38 = fmaf(t36, t37, t30);
+			const float t39 = 0x1.111112p-5f /* 1/30 */ * t4;
+			const float t40 = fmaf(0x1.111112p-3f /* 2/15 */, t7, t39);
+			const float t41 = fmaf(0x1.555556p-2f /* 1/3 */, t10, t40);
+			const float t42 = fmaf(0x1.555556p-1f /* 2/3 */, t12, t41);
+			const float t43 = fmaf(0x1.2aaaaap0f /* 7/6 */, t16, t42);
+			const float t44 = fmaf(0x1.dddddep0f /* 28/15 */, t18, t43);
+			const float t45 = x1 * x1;
+			const float t46 = t45 * x1;
+			const float t47 = fmaf(t44, t46, t38);
+			acc0 = fmaf(s, t47, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^2 y^6; scheme even-power.
- * Cost per item: 31 mul or fma, 6 add; 1 accumulators, 14 values alive, depth 12. */
+/* integral of x^2 y^6; scheme matrix.
+ * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x2y6f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1649,50 +1752,60 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y6f_fma(
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
-			const float b = y0 + y1;
-			const float f = y1 - y0;
-			const float t0 = b * f;
+			const float t0 = y0 * y0;
 			const float t1 = t0 * t0;
-			const float t2 = b * b;
-			const float t3 = t2 * t2;
-			const float t4 = 0x1.555556p0f /* 4/3 */ * t3;
-			const float t5 = fmaf(0x1.555556p1f /* 8/3 */, t1, t4);
-			const float t6 = f * f;
-			const float t7 = t6 * t6;
-			const float t8 = fmaf(0x1.24924ap-1f /* 4/7 */, t7, t5);
-			const float t9 = t2 * t1;
-			const float t10 = b * t2;
-			const float t11 = t10 * t10;
-			const float t12 = 0x1.555556p-2f /* 1/3 */ * t11;
-			const float t13 = fmaf(0x1.aaaaaap0f /* 5/3 */, t9, t12);
-			const float t14 = t1 * t6;
-			const float t15 = t13 + t14;
-			const float t16 = f * t6;
-			const float t17 = t16 * t16;
-			const float t18 = fmaf(0x1.861862p-5f /* 1/21 */, t17, t15);
-			const float a = x0 + x1;
-			const float t19 = a * a;
-			const float t20 = t18 * t19;
-			const float e = x1 - x0;
-			const float t21 = a * e;
-			const float t22 = t0 * t21;
-			const float t23 = fmaf(t8, t22, t20);
-			const float t24 = fmaf(0x1.c71c72p-4f /* 1/9 */, t11, t9);
-			const float t25 = fmaf(0x1.6db6dcp-1f /* 5/7 */, t14, t24);
-			const float t26 = fmaf(0x1.2f684cp-5f /* 1/27 */, t17, t25);
-			const float t27 = e * e;
-			const float t28 = fmaf(t26, t27, t23);
-			const float t29 = x0 * y1;
-			const float t30 = x1 * y0;
-			const float s = t29 - t30;
-			acc0 = fmaf(s, t28, acc0);
+			const float t2 = y0 * y1;
+			const float t3 = t2 * t1;
+			const float t4 = t0 * y0;
+			const float t5 = t4 * t4;
+			const float t6 = 0x1.dddddep-2f /* 7/15 */ * t5;
+			const float t7 = fmaf(0x1.99999ap-1f /* 4/5 */, t3, t6);
+			const float t8 = t2 * t2;
+			const float t9 = t0 * t8;
+			const float t10 = t9 + t7;
+			const float t11 = t2 * t8;
+			const float t12 = fmaf(0x1.111112p0f /* 16/15 */, t11, t10);
+			const float t13 = y1 * y1;
+			const float t14 = t8 * t13;
+			const float t15 = t14 + t12;
+			const float t16 = t13 * t13;
+			const float t17 = t2 * t16;
+			const float t18 = fmaf(0x1.99999ap-1f /* 4/5 */, t17, t15);
+			const float t19 = t13 * y1;
+			const float t20 = t19 * t19;
+			const float t21 = fmaf(0x1.dddddep-2f /* 7/15 */, t20, t18);
+			const float t22 = 0x1.dddddep0f /* 28/15 */ * t5;
+			const float t23 = fmaf(0x1.666666p0f /* 7/5 */, t3, t22);
+			const float t24 = t23 + t9;
+			const float t25 = 0x1.555556p-1f /* 2/3 */ * t11;
+			const float t26 = t24 + t25;
+			const float t27 = fmaf(0x1.99999ap-2f /* 2/5 */, t14, t26);
+			const float t28 = fmaf(0x1.99999ap-3f /* 1/5 */, t17, t27);
+			const float t29 = fmaf(0x1.111112p-4f /* 1/15 */, t20, t28);
+			const float t30 = x0 * x0;
+			const float t31 = t29 * t30;
+			const float t32 = x0 * x1;
+			const float t33 = fmaf(t21, t32, t31);
+			const float t34 = 0x1.111112p-4f /* 1/15 */ * t5;
+			const float t35 = fmaf(0x1.99999ap-3f /* 1/5 */, t3, t34);
+			const float t36 = fmaf(0x1.99999ap-2f /* 2/5 */, t9, t35);
+			const float t37 = t25 + t36;
+			const float t38 = t14 + t37;
+			const float t39 = fmaf(0x1.666666p0f /* 7/5 */, t17, t38);
+			const float t40 = fmaf(0x1.dddddep0f /* 28/15 */, t20, t39);
+			const float t41 = x1 * x1;
+			const float t42 = fmaf(t40, t41, t33);
+			const float t43 = x0 * y1;
+			const float t44 = x1 * y0;
+			const float s = t43 - t44;
+			acc0 = fmaf(s, t42, acc0);
 		}
 		sum[lane] = acc0;
 	}
 }
 
-/* integral of x^1 y^7; scheme even-power.
- * Cost per item: 22 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 10. */
+/* integral of x^1 y^7; scheme matrix.
+ * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x1y7f_fma(
 	const float *x, const float *y, float cx, size_t count, float *sum)
 {
@@ -1704,34 +1817,46 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y7f_fma(
 			const float y0 = y[i];
 			const float x1 = x[i + 1];
 			const float y1 = y[i + 1];
-			const float b = y0 + y1;
-			const float t0 = b * b;
-			const float t1 = b * t0;
-			const float t2 = t1 * t1;
-			const float f = y1 - y0;
-			const float t3 = b * f;
-			const float t4 = t3 * t3;
-			const float t5 = t0 * t4;
-			const float t6 = fmaf(0x1.555556p-2f /* 1/3 */, t2, t5);
-			const float t7 = f * f;
-			const float t8 = t4 * t7;
-			const float t9 = fmaf(0x1.b6db6ep-2f /* 3/7 */, t8, t6);
-			const float t10 = f * t7;
-			const float t11 = t10 * t10;
-			const float t12 = fmaf(0x1.041042p-6f /* 1/63 */, t11, t9);
-			const float t13 = fmaf(0x1.24924ap-3f /* 1/7 */, t2, t5);
-			const float t14 = t13 + t8;
-			const float t15 = fmaf(0x1.24924ap-3f /* 1/7 */, t11, t14);
-			const float a = x0 + x1;
-			const float t16 = a * b;
-			const float t17 = t15 * t16;
-			const float e = x1 - x0;
-			const float t18 = e * f;
-			const float t19 = fmaf(t12, t18, t17);
-			const float t20 = x0 * y1;
-			const float t21 = x1 * y0;
-			const float s = t20 - t21;
-			acc0 = fmaf(s, t19, acc0);
+			const float t0 = y0 * y0;
+			const float t1 = t0 * y0;
+			const float t2 = t0 * t1;
+			const float t3 = y0 * y1;
+			const float t4 = t3 * t2;
+			const float t5 = t0 * t0;
+			const float t6 = t1 * t5;
+			const float t7 = fmaf(2.0f, t4, t6);
+			const float t8 = t3 * t3;
+			const float t9 = t1 * t8;
+			const float t10 = fmaf(3.0f, t9, t7);
+			const float t11 = t3 * t8;
+			const float t12 = t11 * y0;
+			const float t13 = fmaf(4.0f, t12, t10);
+			const float t14 = t11 * y1;
+			const float t15 = fmaf(5.0f, t14, t13);
+			const float t16 = y1 * y1;
+			const float t17 = t16 * y1;
+			const float t18 = t8 * t17;
+			const float t19 = fmaf(6.0f, t18, t15);
+			const float t20 = t16 * t17;
+			const float t21 = t3 * t20;
+			const float t22 = fmaf(7.0f, t21, t19);
+			const float t23 = t16 * t16;
+			const float t24 = t17 * t23;
+			const float t25 = fmaf(8.0f, t24, t22);
+			const float t26 = 8.0f * t6;
+			const float t27 = fmaf(7.0f, t4, t26);
+			const float t28 = fmaf(6.0f, t9, t27);
+			const float t29 = fmaf(5.0f, t12, t28);
+			const float t30 = fmaf(4.0f, t14, t29);
+			const float t31 = fmaf(3.0f, t18, t30);
+			const float t32 = fmaf(2.0f, t21, t31);
+			const float t33 = t32 + t24;
+			const float t34 = t33 * x0;
+			const float t35 = fmaf(t25, x1, t34);
+			const float t36 = x0 * y1;
+			const float t37 = x1 * y0;
+			const float s = t36 - t37;
+			acc0 = fmaf(s, t35, acc0);
 		}
 		sum[lane] = acc0;
 	}

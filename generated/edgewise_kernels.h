@@ -172,21 +172,21 @@
 	X(EW_RING_X1Y5, monomial, 1, 5, 1, 1, 380, 1) \
 	X(EW_RING_X0Y6, monomial, 0, 6, 1, 1, 17, 1) \
 	X(EW_RING_X7Y0, monomial, 7, 0, 1, 1, 19, 1) \
-	X(EW_RING_X6Y1, monomial, 6, 1, 1, 1, 816, 1) \
-	X(EW_RING_X5Y2, monomial, 5, 2, 1, 1, 835, 1) \
-	X(EW_RING_X4Y3, monomial, 4, 3, 1, 1, 840, 1) \
-	X(EW_RING_X3Y4, monomial, 3, 4, 1, 1, 840, 1) \
-	X(EW_RING_X2Y5, monomial, 2, 5, 1, 1, 835, 1) \
-	X(EW_RING_X1Y6, monomial, 1, 6, 1, 1, 816, 1) \
+	X(EW_RING_X6Y1, monomial, 6, 1, 1, 1, 20, 1) \
+	X(EW_RING_X5Y2, monomial, 5, 2, 1, 1, 21, 1) \
+	X(EW_RING_X4Y3, monomial, 4, 3, 1, 1, 20, 1) \
+	X(EW_RING_X3Y4, monomial, 3, 4, 1, 1, 20, 1) \
+	X(EW_RING_X2Y5, monomial, 2, 5, 1, 1, 21, 1) \
+	X(EW_RING_X1Y6, monomial, 1, 6, 1, 1, 20, 1) \
 	X(EW_RING_X0Y7, monomial, 0, 7, 1, 1, 19, 1) \
 	X(EW_RING_X8Y0, monomial, 8, 0, 1, 1, 21, 1) \
-	X(EW_RING_X7Y1, monomial, 7, 1, 1, 1, 1757, 1) \
-	X(EW_RING_X6Y2, monomial, 6, 2, 1, 1, 1865, 1) \
-	X(EW_RING_X5Y3, monomial, 5, 3, 1, 1, 1855, 1) \
-	X(EW_RING_X4Y4, monomial, 4, 4, 1, 1, 1908, 1) \
-	X(EW_RING_X3Y5, monomial, 3, 5, 1, 1, 1855, 1) \
-	X(EW_RING_X2Y6, monomial, 2, 6, 1, 1, 1865, 1) \
-	X(EW_RING_X1Y7, monomial, 1, 7, 1, 1, 1757, 1) \
+	X(EW_RING_X7Y1, monomial, 7, 1, 1, 1, 22, 1) \
+	X(EW_RING_X6Y2, monomial, 6, 2, 1, 1, 23, 1) \
+	X(EW_RING_X5Y3, monomial, 5, 3, 1, 1, 23, 1) \
+	X(EW_RING_X4Y4, monomial, 4, 4, 1, 1, 22, 1) \
+	X(EW_RING_X3Y5, monomial, 3, 5, 1, 1, 23, 1) \
+	X(EW_RING_X2Y6, monomial, 2, 6, 1, 1, 23, 1) \
+	X(EW_RING_X1Y7, monomial, 1, 7, 1, 1, 22, 1) \
 	X(EW_RING_X0Y8, monomial, 0, 8, 1, 1, 21, 1)
 
 enum {
@@ -398,21 +398,21 @@ enum {
 	X(EW_RING_X1Y5, ew_ring_x1y5_portable, 17, 11) \
 	X(EW_RING_X0Y6, ew_ring_x0y6_portable, 13, 8) \
 	X(EW_RING_X7Y0, ew_ring_x7y0_portable, 15, 9) \
-	X(EW_RING_X6Y1, ew_ring_x6y1_portable, 24, 12) \
-	X(EW_RING_X5Y2, ew_ring_x5y2_portable, 25, 14) \
-	X(EW_RING_X4Y3, ew_ring_x4y3_portable, 30, 15) \
-	X(EW_RING_X3Y4, ew_ring_x3y4_portable, 30, 15) \
-	X(EW_RING_X2Y5, ew_ring_x2y5_portable, 25, 14) \
-	X(EW_RING_X1Y6, ew_ring_x1y6_portable, 24, 12) \
+	X(EW_RING_X6Y1, ew_ring_x6y1_portable, 31, 15) \
+	X(EW_RING_X5Y2, ew_ring_x5y2_portable, 35, 19) \
+	X(EW_RING_X4Y3, ew_ring_x4y3_portable, 36, 21) \
+	X(EW_RING_X3Y4, ew_ring_x3y4_portable, 36, 21) \
+	X(EW_RING_X2Y5, ew_ring_x2y5_portable, 35, 19) \
+	X(EW_RING_X1Y6, ew_ring_x1y6_portable, 31, 15) \
 	X(EW_RING_X0Y7, ew_ring_x0y7_portable, 15, 9) \
 	X(EW_RING_X8Y0, ew_ring_x8y0_portable, 17, 10) \
-	X(EW_RING_X7Y1, ew_ring_x7y1_portable, 22, 13) \
-	X(EW_RING_X6Y2, ew_ring_x6y2_portable, 31, 16) \
-	X(EW_RING_X5Y3, ew_ring_x5y3_portable, 31, 17) \
-	X(EW_RING_X4Y4, ew_ring_x4y4_portable, 35, 18) \
-	X(EW_RING_X3Y5, ew_ring_x3y5_portable, 31, 17) \
-	X(EW_RING_X2Y6, ew_ring_x2y6_portable, 31, 16) \
-	X(EW_RING_X1Y7, ew_ring_x1y7_portable, 22, 13) \
+	X(EW_RING_X7Y1, ew_ring_x7y1_portable, 38, 17) \
+	X(EW_RING_X6Y2, ew_ring_x6y2_portable, 40, 22) \
+	X(EW_RING_X5Y3, ew_ring_x5y3_portable, 46, 25) \
+	X(EW_RING_X4Y4, ew_ring_x4y4_portable, 45, 26) \
+	X(EW_RING_X3Y5, ew_ring_x3y5_portable, 46, 25) \
+	X(EW_RING_X2Y6, ew_ring_x2y6_portable, 40, 22) \
+	X(EW_RING_X1Y7, ew_ring_x1y7_portable, 38, 17) \
 	X(EW_RING_X0Y8, ew_ring_x0y8_portable, 17, 10)
 
 /* X(id, kernel, f, a): fma, double; per item f on the FMA pipe, a additions */
@@ -455,21 +455,21 @@ enum {
 	X(EW_RING_X1Y5, ew_ring_x1y5_fma, 17, 6) \
 	X(EW_RING_X0Y6, ew_ring_x0y6_fma, 13, 2) \
 	X(EW_RING_X7Y0, ew_ring_x7y0_fma, 15, 2) \
-	X(EW_RING_X6Y1, ew_ring_x6y1_fma, 24, 5) \
-	X(EW_RING_X5Y2, ew_ring_x5y2_fma, 25, 5) \
-	X(EW_RING_X4Y3, ew_ring_x4y3_fma, 30, 5) \
-	X(EW_RING_X3Y4, ew_ring_x3y4_fma, 30, 5) \
-	X(EW_RING_X2Y5, ew_ring_x2y5_fma, 25, 5) \
-	X(EW_RING_X1Y6, ew_ring_x1y6_fma, 24, 5) \
+	X(EW_RING_X6Y1, ew_ring_x6y1_fma, 31, 4) \
+	X(EW_RING_X5Y2, ew_ring_x5y2_fma, 35, 4) \
+	X(EW_RING_X4Y3, ew_ring_x4y3_fma, 36, 7) \
+	X(EW_RING_X3Y4, ew_ring_x3y4_fma, 36, 7) \
+	X(EW_RING_X2Y5, ew_ring_x2y5_fma, 35, 4) \
+	X(EW_RING_X1Y6, ew_ring_x1y6_fma, 31, 4) \
 	X(EW_RING_X0Y7, ew_ring_x0y7_fma, 15, 2) \
 	X(EW_RING_X8Y0, ew_ring_x8y0_fma, 17, 2) \
-	X(EW_RING_X7Y1, ew_ring_x7y1_fma, 22, 6) \
-	X(EW_RING_X6Y2, ew_ring_x6y2_fma, 31, 6) \
-	X(EW_RING_X5Y3, ew_ring_x5y3_fma, 31, 7) \
-	X(EW_RING_X4Y4, ew_ring_x4y4_fma, 35, 5) \
-	X(EW_RING_X3Y5, ew_ring_x3y5_fma, 31, 7) \
-	X(EW_RING_X2Y6, ew_ring_x2y6_fma, 31, 6) \
-	X(EW_RING_X1Y7, ew_ring_x1y7_fma, 22, 6) \
+	X(EW_RING_X7Y1, ew_ring_x7y1_fma, 38, 2) \
+	X(EW_RING_X6Y2, ew_ring_x6y2_fma, 40, 7) \
+	X(EW_RING_X5Y3, ew_ring_x5y3_fma, 46, 4) \
+	X(EW_RING_X4Y4, ew_ring_x4y4_fma, 45, 6) \
+	X(EW_RING_X3Y5, ew_ring_x3y5_fma, 46, 4) \
+	X(EW_RING_X2Y6, ew_ring_x2y6_fma, 40, 7) \
+	X(EW_RING_X1Y7, ew_ring_x1y7_fma, 38, 2) \
 	X(EW_RING_X0Y8, ew_ring_x0y8_fma, 17, 2)
 
 /* X(function, id, edge, k): a polynomial over a ring, and over one edge with its k; float */
@@ -515,21 +515,21 @@ enum {
 	X(EW_RING_X1Y5, ew_ring_x1y5f_portable, 17, 11) \
 	X(EW_RING_X0Y6, ew_ring_x0y6f_portable, 13, 8) \
 	X(EW_RING_X7Y0, ew_ring_x7y0f_portable, 15, 9) \
-	X(EW_RING_X6Y1, ew_ring_x6y1f_portable, 24, 12) \
-	X(EW_RING_X5Y2, ew_ring_x5y2f_portable, 25, 14) \
-	X(EW_RING_X4Y3, ew_ring_x4y3f_portable, 30, 15) \
-	X(EW_RING_X3Y4, ew_ring_x3y4f_portable, 30, 15) \
-	X(EW_RING_X2Y5, ew_ring_x2y5f_portable, 25, 14) \
-	X(EW_RING_X1Y6, ew_ring_x1y6f_portable, 24, 12) \
+	X(EW_RING_X6Y1, ew_ring_x6y1f_portable, 31, 15) \
+	X(EW_RING_X5Y2, ew_ring_x5y2f_portable, 35, 19) \
+	X(EW_RING_X4Y3, ew_ring_x4y3f_portable, 36, 21) \
+	X(EW_RING_X3Y4, ew_ring_x3y4f_portable, 36, 21) \
+	X(EW_RING_X2Y5, ew_ring_x2y5f_portable, 35, 19) \
+	X(EW_RING_X1Y6, ew_ring_x1y6f_portable, 31, 15) \
 	X(EW_RING_X0Y7, ew_ring_x0y7f_portable, 15, 9) \
 	X(EW_RING_X8Y0, ew_ring_x8y0f_portable, 17, 10) \
-	X(EW_RING_X7Y1, ew_ring_x7y1f_portable, 22, 13) \
-	X(EW_RING_X6Y2, ew_ring_x6y2f_portable, 31, 16) \
-	X(EW_RING_X5Y3, ew_ring_x5y3f_portable, 31, 17) \
-	X(EW_RING_X4Y4, ew_ring_x4y4f_portable, 35, 18) \
-	X(EW_RING_X3Y5, ew_ring_x3y5f_portable, 31, 17) \
-	X(EW_RING_X2Y6, ew_ring_x2y6f_portable, 31, 16) \
-	X(EW_RING_X1Y7, ew_ring_x1y7f_portable, 22, 13) \
+	X(EW_RING_X7Y1, ew_ring_x7y1f_portable, 38, 17) \
+	X(EW_RING_X6Y2, ew_ring_x6y2f_portable, 40, 22) \
+	X(EW_RING_X5Y3, ew_ring_x5y3f_portable, 46, 25) \
+	X(EW_RING_X4Y4, ew_ring_x4y4f_portable, 45, 26) \
+	X(EW_RING_X3Y5, ew_ring_x3y5f_portable, 46, 25) \
+	X(EW_RING_X2Y6, ew_ring_x2y6f_portable, 40, 22) \
+	X(EW_RING_X1Y7, ew_ring_x1y7f_portable, 38, 17) \
 	X(EW_RING_X0Y8, ew_ring_x0y8f_portable, 17, 10)
 
 /* X(id, kernel, f, a): fma, float; per item f on the FMA pipe, a additions */
@@ -572,21 +572,21 @@ enum {
 	X(EW_RING_X1Y5, ew_ring_x1y5f_fma, 17, 6) \
 	X(EW_RING_X0Y6, ew_ring_x0y6f_fma, 13, 2) \
 	X(EW_RING_X7Y0, ew_ring_x7y0f_fma, 15, 2) \
-	X(EW_RING_X6Y1, ew_ring_x6y1f_fma, 24, 5) \
-	X(EW_RING_X5Y2, ew_ring_x5y2f_fma, 25, 5) \
-	X(EW_RING_X4Y3, ew_ring_x4y3f_fma, 30, 5) \
-	X(EW_RING_X3Y4, ew_ring_x3y4f_fma, 30, 5) \
-	X(EW_RING_X2Y5, ew_ring_x2y5f_fma, 25, 5) \
-	X(EW_RING_X1Y6, ew_ring_x1y6f_fma, 24, 5) \
+	X(EW_RING_X6Y1, ew_ring_x6y1f_fma, 31, 4) \
+	X(EW_RING_X5Y2, ew_ring_x5y2f_fma, 35, 4) \
+	X(EW_RING_X4Y3, ew_ring_x4y3f_fma, 36, 7) \
+	X(EW_RING_X3Y4, ew_ring_x3y4f_fma, 36, 7) \
+	X(EW_RING_X2Y5, ew_ring_x2y5f_fma, 35, 4) \
+	X(EW_RING_X1Y6, ew_ring_x1y6f_fma, 31, 4) \
 	X(EW_RING_X0Y7, ew_ring_x0y7f_fma, 15, 2) \
 	X(EW_RING_X8Y0, ew_ring_x8y0f_fma, 17, 2) \
-	X(EW_RING_X7Y1, ew_ring_x7y1f_fma, 22, 6) \
-	X(EW_RING_X6Y2, ew_ring_x6y2f_fma, 31, 6) \
-	X(EW_RING_X5Y3, ew_ring_x5y3f_fma, 31, 7) \
-	X(EW_RING_X4Y4, ew_ring_x4y4f_fma, 35, 5) \
-	X(EW_RING_X3Y5, ew_ring_x3y5f_fma, 31, 7) \
-	X(EW_RING_X2Y6, ew_ring_x2y6f_fma, 31, 6) \
-	X(EW_RING_X1Y7, ew_ring_x1y7f_fma, 22, 6) \
+	X(EW_RING_X7Y1, ew_ring_x7y1f_fma, 38, 2) \
+	X(EW_RING_X6Y2, ew_ring_x6y2f_fma, 40, 7) \
+	X(EW_RING_X5Y3, ew_ring_x5y3f_fma, 46, 4) \
+	X(EW_RING_X4Y4, ew_ring_x4y4f_fma, 45, 6) \
+	X(EW_RING_X3Y5, ew_ring_x3y5f_fma, 46, 4) \
+	X(EW_RING_X2Y6, ew_ring_x2y6f_fma, 40, 7) \
+	X(EW_RING_X1Y7, ew_ring_x1y7f_fma, 38, 2) \
 	X(EW_RING_X0Y8, ew_ring_x0y8f_fma, 17, 2)
 
 #ifdef __cplusplus

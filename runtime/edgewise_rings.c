@@ -51,6 +51,7 @@ static void ew_ring_translate(int degree, double dx, double dy, double *a)
 #define EW_RUN ew_ring_run
 #define EW_WIDTH EW_LANES
 #define EW_IS_FLOAT 0
+#define EW_SAFE 1e180
 #define EW_LIST_PORTABLE EW_RINGS_PORTABLE_DOUBLE
 #define EW_LIST_FMA EW_RINGS_FMA_DOUBLE
 #define EW_LIST_POLYNOMIALS EW_POLYNOMIALS_DOUBLE
@@ -64,6 +65,7 @@ static void ew_ring_translate(int degree, double dx, double dy, double *a)
 #define EW_RUN ew_ring_runf
 #define EW_WIDTH EW_LANES_FLOAT
 #define EW_IS_FLOAT 1
+#define EW_SAFE 1e18
 #define EW_LIST_PORTABLE EW_RINGS_PORTABLE_FLOAT
 #define EW_LIST_FMA EW_RINGS_FMA_FLOAT
 #define EW_LIST_POLYNOMIALS EW_POLYNOMIALS_FLOAT

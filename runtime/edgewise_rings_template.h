@@ -1,7 +1,8 @@
 /* edgewise_rings_template.h - the ring driver, included by edgewise_rings.c once per precision.
  *
  * Parameters: EW_REAL, EW_NAME(stem) the name of a public function with its suffix, EW_LOCAL(stem)
- * that of a local one, EW_RUN the kernel type, EW_WIDTH the number of virtual lanes, EW_IS_FLOAT,
+ * that of a local one, EW_RUN the kernel type, EW_SAFE areas between its inverse and it are far from
+ * overflow and underflow, EW_WIDTH the number of virtual lanes, EW_IS_FLOAT,
  * EW_LIST_PORTABLE, EW_LIST_FMA and EW_LIST_POLYNOMIALS the kernel lists.
  *
  * The items of a ring (its edges, or for the vertex form all vertices but the first) are numbered
@@ -16,8 +17,8 @@
 typedef struct {
 	const EW_REAL *x, *y;
 	size_t stride, n;
-	int moved;                     /* vertex = ((x, y) - (cx, cy)) - (dx, dy), each rounded */
-	EW_REAL cx, cy, dx, dy;
+	int moved;                     /* vertex = (((x, y) - (cx, cy)) - (dx, dy)) scale */
+	EW_REAL cx, cy, dx, dy, scale;
 } EW_LOCAL(vertices);
 
 static EW_RUN *EW_LOCAL(kernel)(int id)
@@ -36,13 +37,13 @@ static EW_RUN *EW_LOCAL(kernel)(int id)
 static EW_REAL EW_LOCAL(vertex_x)(const EW_LOCAL(vertices) *v, size_t i)
 {
 	EW_REAL x = v->x[i * v->stride];
-	return v->moved ? (x - v->cx) - v->dx : x;
+	return v->moved ? ((x - v->cx) - v->dx) * v->scale : x;
 }
 
 static EW_REAL EW_LOCAL(vertex_y)(const EW_LOCAL(vertices) *v, size_t i)
 {
 	EW_REAL y = v->y[i * v->stride];
-	return v->moved ? (y - v->cy) - v->dy : y;
+	return v->moved ? ((y - v->cy) - v->dy) * v->scale : y;
 }
 
 /* Items start .. end-1, through the buffer; the ring closes by itself. */
@@ -129,7 +130,7 @@ static void EW_LOCAL(integrate)(int id, const EW_LOCAL(vertices) *v, double *out
 static EW_LOCAL(vertices) EW_LOCAL(plain)(const EW_REAL *x, const EW_REAL *y, size_t stride,
 	size_t n)
 {
-	EW_LOCAL(vertices) v = { x, y, stride, n, 0, 0, 0, 0, 0 };
+	EW_LOCAL(vertices) v = { x, y, stride, n, 0, 0, 0, 0, 0, 1 };
 	return v;
 }
 
@@ -211,42 +212,71 @@ EW_REAL EW_NAME(area)(const EW_REAL *x, const EW_REAL *y, size_t n)
 #endif
 
 #if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 1
-/* Centroid less first vertex into d; returns the area. Moves the vertices to the first one. */
-static double EW_LOCAL(centre)(EW_LOCAL(vertices) *v, double d[2])
+/* A power of two that brings the moved vertices near 1, or 0 if they are all 0, NaN or infinite. */
+static EW_REAL EW_LOCAL(unit_scale)(const EW_LOCAL(vertices) *v)
 {
-	double moment[3] = { 0, 0, 0 };
+	double largest = 0;
+	int exponent;
+	for (size_t i = 0; i < v->n; ++i) {
+		double x = fabs((double)EW_LOCAL(vertex_x)(v, i));
+		double y = fabs((double)EW_LOCAL(vertex_y)(v, i));
+		largest = x <= largest ? largest : x;
+		largest = y <= largest ? largest : y;
+	}
+	if (largest == 0 || largest - largest != 0)
+		return 0;
+	frexp(largest, &exponent);
+	return (EW_REAL)ldexp(1.0, exponent > 1000 ? -1000 : -exponent);
+}
+
+/* Centroid less first vertex into d, and the area; 0 if the area is 0. Moves the vertices to the
+ * first one. If a moment has left the range of its precision, once more on scaled vertices. */
+static int EW_LOCAL(centre)(EW_LOCAL(vertices) *v, double d[2], double *area)
+{
+	double moment[3] = { 0, 0, 0 }, back = 1;
 	if (v->n) {
 		v->moved = 1;
 		v->cx = v->x[0];
 		v->cy = v->y[0];
 		EW_LOCAL(integrate)(EW_RING_MOMENTS_1, v, moment);
 	}
-	d[0] = moment[1] / moment[0];
-	d[1] = moment[2] / moment[0];
+	*area = moment[0];
+	if (!(fabs(moment[0]) > 1 / EW_SAFE && fabs(moment[0]) < EW_SAFE && moment[1] - moment[1] == 0
+	      && moment[2] - moment[2] == 0)) {
+		EW_REAL scale = EW_LOCAL(unit_scale)(v);
+		if (scale != 0) {
+			v->scale = scale;
+			EW_LOCAL(integrate)(EW_RING_MOMENTS_1, v, moment);
+			v->scale = 1;
+			back = 1 / (double)scale;
+			*area = moment[0] * back * back;
+		}
+	}
+	d[0] = moment[1] / moment[0] * back;
+	d[1] = moment[2] / moment[0] * back;
 	if (moment[0] == 0)
 		d[0] = d[1] = (double)NAN;
-	return moment[0];
+	return moment[0] != 0;
 }
 
 int EW_NAME(centroid)(const EW_REAL *x, const EW_REAL *y, size_t n, EW_REAL c[2])
 {
 	EW_LOCAL(vertices) v = EW_LOCAL(plain)(x, y, 1, n);
-	double d[2];
-	double area = EW_LOCAL(centre)(&v, d);
+	double d[2], area;
+	int found = EW_LOCAL(centre)(&v, d, &area);
 	c[0] = (EW_REAL)((double)v.cx + d[0]);
 	c[1] = (EW_REAL)((double)v.cy + d[1]);
-	return area == 0 ? EW_ZERO_AREA : EW_OK;
+	return found ? EW_OK : EW_ZERO_AREA;
 }
 
-int EW_NAME(central_moments)(int degree, const EW_REAL *x, const EW_REAL *y, size_t n,
-	EW_REAL c[2], EW_REAL *out)
+int EW_NAME(central_moments)(int degree, const EW_REAL *x, const EW_REAL *y, size_t n, EW_REAL c[2],
+	EW_REAL *out)
 {
 	EW_LOCAL(vertices) v = EW_LOCAL(plain)(x, y, 1, n);
-	double d[2];
+	double d[2], area;
 	if (degree < 0 || degree > EW_MAX_DEGREE)
 		return EW_BAD_DEGREE;
-	double area = EW_LOCAL(centre)(&v, d);
-	if (area == 0) {
+	if (!EW_LOCAL(centre)(&v, d, &area)) {
 		c[0] = c[1] = (EW_REAL)NAN;
 		for (int j = 0; j < EW_MOMENTS(degree); ++j)
 			out[j] = (EW_REAL)NAN;
@@ -257,9 +287,9 @@ int EW_NAME(central_moments)(int degree, const EW_REAL *x, const EW_REAL *y, siz
 	v.dx = (EW_REAL)d[0];
 	v.dy = (EW_REAL)d[1];
 	EW_LOCAL(all_moments)(degree, &v, out);
-	out[0] = (EW_REAL)area;   /* better conditioned where the centroid lies far outside */
+	out[0] = (EW_REAL)area;        /* better conditioned where the centroid lies far outside */
 	for (int j = 1; j < EW_MOMENTS(degree) && j < 3; ++j)
-		out[j] = out[j] == out[j] ? 0 : out[j];   /* by definition, unless NaN came in */
+		out[j] = out[j] == out[j] ? 0 : out[j];    /* by definition, unless NaN came in */
 	return EW_OK;
 }
 #endif
@@ -270,6 +300,7 @@ int EW_NAME(central_moments)(int degree, const EW_REAL *x, const EW_REAL *y, siz
 #undef EW_RUN
 #undef EW_WIDTH
 #undef EW_IS_FLOAT
+#undef EW_SAFE
 #undef EW_LIST_PORTABLE
 #undef EW_LIST_FMA
 #undef EW_LIST_POLYNOMIALS

@@ -381,12 +381,43 @@ static void test_moved_region(const Api *api, const char *target)
 	ref_free(want, MOMENTS);
 }
 
+/* Scaling a ring by a power of two scales its centroid, also where area and moments have left the
+ * range of the precision: scaling commutes with every rounding, so equal bits must come back. */
+static void test_scales(const Api *api, const char *target)
+{
+	const int widest = api->bits == 24 ? 100 : 900;
+	check_begin("centroids of huge and tiny rings, %s, %s", api->name, target);
+	for (int i = 0; i < 200; i++) {
+		double near[2], far[2];
+		const int power = i % 2 ? random_int(widest / 4, widest) : -random_int(widest / 4, widest);
+		Ring ring = ring_new((size_t)random_int(3, 30));
+		ring_star(&ring, 0, 0, 1);
+		ring_snap(&ring, 0x1p-10);
+		ring_pack(api, &ring);
+		int status = api->centroid(ring.px, ring.py, ring.n, near);
+		double want[2] = { get(api, near, 0), get(api, near, 1) };
+		for (size_t k = 0; k < ring.n; k++) {
+			ring.x[k] = ldexp(ring.x[k], power);
+			ring.y[k] = ldexp(ring.y[k], power);
+		}
+		ring_pack(api, &ring);
+		expect(api->centroid(ring.px, ring.py, ring.n, far) == status, "2^%d: other status", power);
+		for (int k = 0; k < 2; k++) {
+			double back = ldexp(get(api, far, k), -power);
+			expect(same_bits(back, want[k]), "2^%d: %.17g, not %.17g", power, back, want[k]);
+		}
+		ring_free(&ring);
+	}
+	check_end();
+}
+
 int main(int argc, char **argv)
 {
 	check_start(argc, argv);
 	for_each_target(test_centroid);
 	for_each_target(test_central);
 	for_each_target(test_far);
+	for_each_target(test_scales);
 	for_each_target(test_translate);
 	for_each_target(test_moved_region);
 	return check_finish();
