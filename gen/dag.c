@@ -13,8 +13,12 @@
 
 #include <string.h>
 
-#define OP(name, operands, fma, add, text) { #name, operands, fma, add, text },
-static const struct { const char *name; int operands, fma, add; const char *text; } ops[OPS] = {
+#define OP(name, operands, fma, add, c, x86, neon) { #name, operands, fma, add, { c, x86, neon } },
+static const struct {
+	const char *name;
+	int operands, fma, add;
+	const char *text[SPELLINGS];
+} ops[OPS] = {
 #include "ops.def"
 };
 #undef OP
@@ -39,9 +43,9 @@ const char *op_name(int op)
 	return ops[op].name;
 }
 
-const char *op_spelling(int op)
+const char *op_spelling(int op, int how)
 {
-	return ops[op].text;
+	return ops[op].text[how];
 }
 
 Dag *dag_new(const char *scheme)

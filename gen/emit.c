@@ -10,9 +10,29 @@
 
 #include <string.h>
 
+static const Vector avx2 = {
+	"immintrin.h", "_mm256", { "__m256d", "__m256" }, { "pd", "ps" }, { 4, 8 }, 16, SPELL_X86,
+	"%_loadu_@($1)", "%_storeu_@($1, $2)", { NULL, NULL },
+};
+static const Vector avx512 = {
+	"immintrin.h", "_mm512", { "__m512d", "__m512" }, { "pd", "ps" }, { 8, 16 }, 32, SPELL_X86,
+	"%_loadu_@($1)", "%_storeu_@($1, $2)",
+	{ "_mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512($2), _mm512_castpd_si512($1), $3))",
+	  "_mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512($2), _mm512_castps_si512($1), $3))" },
+};
+static const Vector neon = {
+	"arm_neon.h", "", { "float64x2_t", "float32x4_t" }, { "f64", "f32" }, { 2, 4 }, 32, SPELL_NEON,
+	"vld1q_@($1)", "vst1q_@($1, $2)", { NULL, NULL },
+};
+
 const Target targets[] = {
-	{ "portable", TARGET_PORTABLE, 0, NULL, NULL, "plain C99, no fused operations" },
-	{ "fma", TARGET_FMA, 1, "EW_BUILD_FMA", "EW_ATTRIBUTE_FMA", "scalar fused multiply-add" },
+	{ "portable", TARGET_PORTABLE, 0, NULL, NULL, NULL, "plain C99, no fused operations", NULL },
+	{ "fma", TARGET_FMA, 1, "EW_BUILD_FMA", "(EW_X86 || EW_ARM || EW_FAST_FMA)",
+		"EW_ATTRIBUTE_FMA", "scalar fused multiply-add",
+		NULL },
+	{ "avx2", TARGET_AVX2, 1, "EW_BUILD_AVX2", "EW_X86", "EW_ATTRIBUTE_AVX2", "AVX2 with FMA", &avx2 },
+	{ "avx512", TARGET_AVX512, 1, "EW_BUILD_AVX512", "EW_X86", "EW_ATTRIBUTE_AVX512", "AVX-512 F", &avx512 },
+	{ "neon", TARGET_NEON, 1, "EW_BUILD_NEON", "EW_ARM", "EW_ATTRIBUTE_NEON", "AArch64 NEON", &neon },
 };
 const int target_count = LENGTH(targets);
 
@@ -154,6 +174,26 @@ static void name_values(Printer *printer)
 	}
 }
 
+char *emit_spelling(const char *pattern, const Style *style, char *const *argument)
+{
+	Text text = { 0 };
+	const Vector *vector = style->vector;
+	const char *suffix = style->precision->suffix;
+	if (vector)
+		suffix = vector->suffix[style->precision->is_float];
+	for (const char *p = pattern; *p; ++p) {
+		if (*p == '$')
+			text_add(&text, "%s", argument[*++p - '1']);
+		else if (*p == '@')
+			text_add(&text, "%s", suffix);
+		else if (*p == '%')
+			text_add(&text, "%s", vector ? vector->prefix : "");
+		else
+			text_add(&text, "%c", *p);
+	}
+	return text_take(&text);
+}
+
 static char *expression(const Printer *printer, Ref ref, int top);
 
 /* An operand, in parentheses unless it is a name, a constant, or a product inside a sum. */
@@ -187,51 +227,116 @@ static int reads_better_swapped(const Printer *printer, const Node *node)
 static char *expression(const Printer *printer, Ref ref, int top)
 {
 	const Node *node = &printer->program->dag->node[ref];
-	const char *suffix = printer->style->precision->suffix;
+	const Vector *vector = printer->style->vector;
+	const char *pattern = op_spelling(node->op, vector ? vector->spelling : SPELL_C);
 	Ref arg[3] = { node->arg[0], node->arg[1], node->arg[2] };
 	if (printer->name[ref] && !top)
 		return copy_string(printer->name[ref], strlen(printer->name[ref]));
-	if (node->op == OP_CONST)
-		return rat_literal(node->value, printer->style->precision->is_float);
+	if (node->op == OP_CONST) {
+		char *literal = rat_literal(node->value, printer->style->precision->is_float);
+		return emit_spelling(pattern, printer->style, &literal);
+	}
 	if (reads_better_swapped(printer, node)) {
 		arg[0] = node->arg[1];
 		arg[1] = node->arg[0];
 	}
-	Text text = { 0 };
-	for (const char *p = op_spelling(node->op); *p; ++p) {
-		if (*p == '$')
-			text_add(&text, "%s", operand(printer, arg[*++p - '1'], node->op));
-		else if (*p == '@')
-			text_add(&text, "%s", suffix);
-		else
-			text_add(&text, "%c", *p);
-	}
-	return text_take(&text);
+	char *argument[3] = { NULL, NULL, NULL };
+	for (int k = 0; k < op_operands(node->op); ++k)
+		argument[k] = operand(printer, arg[k], node->op);
+	return emit_spelling(pattern, printer->style, argument);
+}
+
+static Printer printer_of(const Program *program, const Style *style)
+{
+	size_t count = (size_t)program->dag->count;
+	const char **names = allocate(count * sizeof *names);
+	Printer printer = { program, style, names, dag_uses(program->dag) };
+	name_values(&printer);
+	return printer;
+}
+
+static void add_value(Text *text, const Printer *printer, Ref ref)
+{
+	const Style *style = printer->style;
+	const char *type = style->precision->real;
+	int k = output_of(printer->program->dag, ref);
+	char *value = expression(printer, ref, 1);
+	if (style->vector)
+		type = style->vector->type[style->precision->is_float];
+	if (k >= 0)
+		value = format("%s%s;", format(style->output, style->first + k), value);
+	else
+		value = format("const %s %s = %s;", type, printer->name[ref], value);
+	emit_statement(text, style->indent, value);
 }
 
 void emit_program(Text *text, const Program *program, const Style *style)
 {
 	Mark mark = arena_mark();
 	const Dag *dag = program->dag;
-	const char **names = allocate((size_t)dag->count * sizeof *names);
-	Printer printer = { program, style, names, dag_uses(dag) };
-	name_values(&printer);
+	Printer printer = printer_of(program, style);
 	for (int at = 0; at < program->count; ++at) {
 		Ref ref = program->order[at];
-		int k = output_of(dag, ref);
-		if (k < 0 && is_inline(&printer, ref))
-			continue;
-		char *value = expression(&printer, ref, 1);
-		if (k >= 0)
-			value = format("%s%s;", format(style->output, style->first + k), value);
-		else
-			value = format("const %s %s = %s;", style->precision->real,
-				printer.name[ref], value);
-		emit_statement(text, style->indent, value);
+		if (output_of(dag, ref) >= 0 || !is_inline(&printer, ref))
+			add_value(text, &printer, ref);
 	}
 	for (int k = 0; k < dag->outs; ++k)          /* an output that is a bare accumulator */
 		if (op_operands(dag->node[dag->out[k]].op) == 0)
-			emit_statement(text, style->indent, format("%s%s;",
-				format(style->output, style->first + k), expression(&printer, dag->out[k], 0)));
+			emit_statement(text, style->indent, format("%s%s;", format(style->output, style->first + k),
+				expression(&printer, dag->out[k], 0)));
+	arena_release(mark);
+}
+
+/* Which nodes depend on an accumulator: they are evaluated when its turn comes. */
+static unsigned char *accumulating(const Dag *dag)
+{
+	unsigned char *depends = allocate((size_t)dag->count);
+	for (int i = 0; i < dag->count; ++i) {
+		const Node *node = &dag->node[i];
+		depends[i] = node->op == OP_INPUT && mono_accumulator_of(node->input) >= 0;
+		for (int k = 0; k < op_operands(node->op); ++k)
+			depends[i] |= depends[node->arg[k]];
+	}
+	return depends;
+}
+
+static void add_chain(Text *text, const Printer *printer, const unsigned char *depends, Ref ref)
+{
+	const Node *node = &printer->program->dag->node[ref];
+	if (op_operands(node->op) == 0)
+		return;
+	for (int k = 0; k < op_operands(node->op); ++k)
+		if (depends[node->arg[k]])
+			add_chain(text, printer, depends, node->arg[k]);
+	add_value(text, printer, ref);
+}
+
+/* The values of the second item carry the suffix "_2"; each accumulator takes both in order. */
+void emit_pair(Text *text, const Program *program, const Style *style,
+	void (*open)(const void *to, int accumulator),
+	void (*close)(const void *to, int accumulator), const void *to)
+{
+	Mark mark = arena_mark();
+	const Dag *dag = program->dag;
+	const unsigned char *depends = accumulating(dag);
+	Printer printer[2] = { printer_of(program, style), printer_of(program, style) };
+	for (int i = 0; i < dag->count; ++i)
+		if (printer[1].name[i] && !(depends[i] && dag->node[i].op == OP_INPUT)
+		    && dag->node[i].input != mono_var(VAR_CX, 1))
+			printer[1].name[i] = format("%s_2", printer[1].name[i]);
+	for (int at = 0; at < program->count; ++at) {
+		Ref ref = program->order[at];
+		int k = output_of(dag, ref);
+		if (k >= 0)
+			open(to, k);
+		for (int copy = 0; copy < 2; ++copy) {
+			if (k >= 0)
+				add_chain(text, &printer[copy], depends, ref);
+			else if (!depends[ref])
+				add_value(text, &printer[copy], ref);
+		}
+		if (k >= 0)
+			close(to, k);
+	}
 	arena_release(mark);
 }

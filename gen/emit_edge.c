@@ -87,7 +87,7 @@ static void add_formula(Text *text, const Edge *edge, const char *margin)
 
 void emit_edge(Text *text, const Edge *edge, const Precision *precision)
 {
-	const Style style = { precision, 1, 1, 0, "", "return " };
+	const Style style = { precision, 1, 1, 0, "", "return ", NULL };
 	const Program *program = &edge->program;
 	const char *real = precision->real;
 	Mark mark = arena_mark();

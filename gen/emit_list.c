@@ -33,20 +33,21 @@ static void add_environment(Text *text, const Request *request)
 		"#elif defined(__GNUC__) && !defined(__TINYC__)\n"
 		"#pragma GCC optimize (\"fp-contract=off\")\n"
 		"#elif defined(_MSC_VER)\n#pragma fp_contract(off)\n#endif\n\n");
-	if (!(request->targets & TARGET_FMA)) {
-		text_add(text, "#define EW_BUILD_FMA 0\n");
-		return;
-	}
-	text_add(text, "/* Can this compiler build the fma kernels, and how? "
-		"The CPU is asked at run time. */\n"
+	text_add(text, "/* Which targets can this compiler build? The CPU is asked at run time. */\n"
 		"#if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__)) "
-		"&& !defined(__TINYC__)\n"
-		"#define EW_BUILD_FMA 1\n"
+		"&& !defined(__TINYC__)\n#define EW_X86 1\n"
 		"#define EW_ATTRIBUTE_FMA __attribute__((target(\"fma\")))\n"
-		"#elif defined(__aarch64__) || defined(_M_ARM64) || defined(_M_X64) "
-		"|| defined(__FP_FAST_FMA)\n"
-		"#define EW_BUILD_FMA 1\n#define EW_ATTRIBUTE_FMA\n"
-		"#else\n#define EW_BUILD_FMA 0\n#endif\n");
+		"#define EW_ATTRIBUTE_AVX2 __attribute__((target(\"avx2,fma\")))\n"
+		"#define EW_ATTRIBUTE_AVX512 __attribute__((target(\"avx512f\")))\n"
+		"#else\n#define EW_X86 0\n#define EW_ATTRIBUTE_FMA\n#endif\n"
+		"#if defined(__aarch64__)\n#define EW_ARM 1\n#define EW_ATTRIBUTE_NEON\n"
+		"#else\n#define EW_ARM 0\n#endif\n"
+		"#if defined(__FP_FAST_FMA)\n#define EW_FAST_FMA 1\n"
+		"#else\n#define EW_FAST_FMA 0\n#endif\n");
+	for (int t = 0; t < target_count; ++t)
+		if (targets[t].guard)
+			text_add(text, "#define %s %s\n", targets[t].guard,
+				request->targets & targets[t].bit ? targets[t].condition : "0");
 }
 
 static void add_lines(Text *text, const Request *request, const Kernels *kernels)
@@ -163,6 +164,14 @@ static void add_types(Text *text, const Request *request)
 			text_add(text, "typedef void ew_ring_run%s(const %s *x, const %s *y, "
 				"%s cx, size_t count, %s *sum);\n", precisions[p].suffix,
 				real, real, real, real);
+	}
+	for (int p = 0; p < precision_count; ++p) {
+		const char *real = precisions[p].real, *suffix = precisions[p].suffix;
+		if (request->precisions & precisions[p].bit)
+			text_add(text, "/* pad = from[0 .. rest-1], then zeros. */\nstatic inline const %s *ew_ring_pad%s("
+				"%s *pad, const %s *from, size_t rest, size_t width)\n{\n"
+				"\tfor (size_t i = 0; i < width; ++i)\n\t\tpad[i] = i < rest ? from[i] : 0;\n"
+				"\treturn pad;\n}\n", real, suffix, real, real);
 	}
 	text_add(text, "typedef void ew_ring_finish(const double *sum, double *out);\n\n"
 		"#define EW_DECLARE(id, window, turns, accumulators, outputs, finish) "

@@ -25,8 +25,8 @@ static void add_signature(Text *text, const Ring *ring, const Target *target,
 {
 	const char *real = precision->real;
 	text_add(text, "void ew_ring_%s%s_%s(\n\t", ring->name, precision->suffix, target->name);
-	text_add(text, "const %s *x, const %s *y, %s cx, size_t count, %s *sum)", real, real, real,
-		real);
+	text_add(text, "const %s *x, const %s *y, %s %s, size_t count, %s *sum)", real, real, real,
+		target->vector ? "origin" : "cx", real);
 }
 
 /* The window of item i + ahead. */
@@ -60,7 +60,7 @@ static void add_loop(Text *text, const Ring *ring, const Program *program,
 	text_add(text, "\t\tfor (size_t i = lane; i < count; i += %d) {\n", ring->turns * lanes);
 	for (int turn = 0; turn < ring->turns; ++turn) {
 		int first = turn * ring->accumulators / ring->turns, indent = ring->turns > 1 ? 4 : 3;
-		const Style style = { precision, 0, indent, first, "acc%d", "acc%d = " };
+		const Style style = { precision, 0, indent, first, "acc%d", "acc%d = ", NULL };
 		if (ring->turns > 1)         /* a block each: the same names occur in every turn */
 			text_add(text, turn ? "\t\t\tif (count - i > %d) {\n" : "\t\t\t{\n", turn * lanes);
 		add_loads(text, ring, precision->real, turn * lanes, indent);
@@ -82,7 +82,14 @@ static void add_kernel(Text *text, const Ring *ring, const Target *target,
 	if (target->attribute)
 		text_add(text, "%s ", target->attribute);
 	add_signature(text, ring, target, precision);
-	text_add(text, "\n{\n%s", ring->window == 2 ? "\t(void)cx;\n" : "");
+	text_add(text, "\n{\n");
+	if (ring->window == 2)
+		text_add(text, "\t(void)%s;\n", target->vector ? "origin" : "cx");
+	if (target->vector) {
+		emit_vector_body(text, ring, target, precision);
+		text_add(text, "}\n");
+		return;
+	}
 	text_add(text, "\tfor (size_t lane = 0; lane < %d && lane < count; ++lane) {\n",
 		precision->lanes);
 	for (int k = 0; k < ring->accumulators; ++k)
@@ -106,7 +113,8 @@ static Text *open_file(Files *files, const Request *request, const Target *targe
 	emit_banner(text, name, purpose, request);
 	text_add(text, "\n#include \"edgewise.h\"\n#include \"edgewise_kernels.h\"\n");
 	if (target && target->guard)
-		text_add(text, "\n#if %s\n\n#include <math.h>\n", target->guard);
+		text_add(text, "\n#if %s\n\n#include <%s>\n", target->guard,
+			target->vector ? target->vector->header : "math.h");
 	return text;
 }
 
@@ -145,7 +153,7 @@ static void emit_target(Files *files, const Request *request, const Kernels *ker
  * the same for every target and precision. */
 static void emit_finish(Files *files, const Request *request, const Kernels *kernels)
 {
-	const Style style = { &precisions[0], 0, 1, 0, "sum[%d]", "out[%d] = " };
+	const Style style = { &precisions[0], 0, 1, 0, "sum[%d]", "out[%d] = ", NULL };
 	Text *text = open_file(files, request, NULL, "edgewise_finish.c",
 		"from accumulator sums to results");
 	for (int i = 0; i < kernels->rings; ++i) {

@@ -115,7 +115,9 @@ typedef struct {
 } Integrand;
 
 enum { PRECISION_DOUBLE = 1, PRECISION_FLOAT = 2 };
-enum { TARGET_PORTABLE = 1, TARGET_FMA = 2 };   /* the bits of EW_PORTABLE, EW_FMA */
+/* The bits of EW_PORTABLE, EW_FMA, ... */
+enum { TARGET_PORTABLE = 1, TARGET_FMA = 2, TARGET_AVX2 = 4, TARGET_AVX512 = 8, TARGET_NEON = 16 };
+enum { ALL_TARGETS = 31 };
 
 typedef struct {
 	int moments;                         /* all moments to this degree; -1: not asked for */
@@ -149,7 +151,7 @@ Integral green_line(Poly integrand);
 
 typedef uint32_t Ref;                        /* index of a node; children are smaller */
 #define NONE UINT32_MAX
-#define OP(name, operands, fma, add, text) OP_##name,
+#define OP(name, operands, fma, add, c, x86, neon) OP_##name,
 enum {
 #include "ops.def"
 	OPS };
@@ -178,7 +180,8 @@ int  op_operands(int op);
 int  op_fma_cost(int op);
 int  op_add_cost(int op);
 const char *op_name(int op);
-const char *op_spelling(int op);
+enum { SPELL_C, SPELL_X86, SPELL_NEON, SPELLINGS };
+const char *op_spelling(int op, int how);    /* how: a column of ops.def */
 
 Dag *dag_new(const char *scheme);
 Ref  dag_node(Dag *dag, int op, Ref a, Ref b, Ref c);
@@ -300,13 +303,25 @@ Kernels build_kernels(const Request *request, void (*progress)(int done, int of)
 typedef struct { const char *name; Text text; } File;
 typedef struct { File *file; int count; } Files;
 
+typedef struct {                             /* a vector instruction set; [0] double, [1] float */
+	const char *header, *prefix;
+	const char *type[2], *suffix[2];
+	int width[2];                        /* lanes of one register */
+	int registers;
+	int spelling;                        /* column of ops.def */
+	const char *load, *store;            /* $1 pointer, $2 value */
+	const char *shift[2];                /* $1 this, $2 next vector, $3 by how many; or NULL */
+} Vector;
+
 typedef struct {                             /* one row per target */
 	const char *name;                    /* suffix of its kernels */
 	unsigned bit;
 	int fused;                           /* runs the fused program */
 	const char *guard;                   /* macro that is 1 if the compiler can, or NULL */
+	const char *condition;               /* what it is 1 for */
 	const char *attribute;               /* macro before each kernel, or NULL */
 	const char *about;
+	const Vector *vector;                /* NULL: scalar */
 } Target;
 extern const Target targets[];
 extern const int target_count;
@@ -318,8 +333,9 @@ extern const int precision_count;
 typedef struct {                             /* how a program is written */
 	const Precision *precision;
 	int nested, indent;
-	int first;                                   /* number of the first accumulator */
+	int first;                           /* number of the first accumulator */
 	const char *accumulator, *output;    /* patterns: "acc%d", "acc%d = " */
+	const Vector *vector;                /* NULL: scalar */
 } Style;
 
 enum { FILE_SIZE = 120000 };                 /* start another file: nobody reviews more */
@@ -328,12 +344,20 @@ void emit_banner(Text *text, const char *name, const char *purpose, const Reques
 void emit_wrapped(Text *text, const char *start, const char *margin, const char *words);
 /* Broken at operators if it is too wide. */
 void emit_statement(Text *text, int indent, const char *statement);
+char *emit_spelling(const char *pattern, const Style *style, char *const *argument);
 void emit_program(Text *text, const Program *program, const Style *style);
+/* Two items at a time; open and close surround the turn of each accumulator. */
+void emit_pair(Text *text, const Program *program, const Style *style,
+	void (*open)(const void *to, int accumulator),
+	void (*close)(const void *to, int accumulator), const void *to);
 
 /* One ew_line_NAME with its comment, and the files of all. */
 void emit_edge(Text *text, const Edge *edge, const Precision *precision);
 void emit_edges(Files *files, const Request *request, const Kernels *kernels);
 void emit_show(Text *text, const Integrand *monomial, const char *format_name);   /* --show */
+/* The body of a ring kernel whose lanes run side by side, after its signature. */
+void emit_vector_body(Text *text, const Ring *ring, const Target *target,
+	const Precision *precision);
 void emit_rings(Files *files, const Request *request, const Kernels *kernels);
 /* edgewise_kernels.h, edgewise.h, and the manifest (JSON, all but the files). */
 void emit_list(Files *files, const Request *request, const Kernels *kernels);

@@ -17,7 +17,7 @@ typedef struct {
 
 static const char *const FAMILIES[] = { "moments" };
 static const char *const PRECISIONS[] = { "double", "float" };
-static const char *const TARGETS[] = { "portable", "fma" };
+static const char *const TARGETS[] = { "portable", "fma", "avx2", "avx512", "neon" };
 
 static const char USAGE[] =
 	"usage: gen [OPTION]...\n"
@@ -171,7 +171,7 @@ static void print_and_exit(const char *text)
 static Options read_options(char **argv)
 {
 	Options o = { .request = { .moments = -1, .precisions = PRECISION_DOUBLE | PRECISION_FLOAT,
-		.targets = TARGET_PORTABLE | TARGET_FMA }, .runtime = 1 };
+		.targets = ALL_TARGETS }, .runtime = 1 };
 	while (*++argv) {
 		const char *option = *argv, *equals = NULL;
 		if (strncmp(option, "--", 2) == 0)

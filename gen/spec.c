@@ -382,8 +382,10 @@ static const char *canonical_command(const Request *request)
 	if (request->precisions != (PRECISION_DOUBLE | PRECISION_FLOAT))
 		text_add(&text, " --precision %s",
 			request->precisions == PRECISION_FLOAT ? "float" : "double");
-	if (request->targets != (TARGET_PORTABLE | TARGET_FMA))
-		text_add(&text, " --targets portable");
+	static const char *const names[] = { "portable", "fma", "avx2", "avx512", "neon" };
+	for (int i = 0; i < LENGTH(names) && request->targets != ALL_TARGETS; ++i)
+		if (request->targets & 1u << i)
+			text_add(&text, "%s%s", i ? "," : " --targets ", names[i]);
 	if (request->prefix)
 		text_add(&text, " --prefix %s", request->prefix);
 	return text_take(&text);

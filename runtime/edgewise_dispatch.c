@@ -23,8 +23,8 @@ static unsigned ew_cpu_available, ew_cpu_forced;       /* 0: not asked yet; 0: n
 #define EW_STORE(word, value) (*(volatile unsigned *)&(word) = (value))
 #endif
 
-#if EW_BUILD_FMA && (defined(__x86_64__) || defined(_M_X64))
-#if defined(_MSC_VER)
+#if EW_X86
+#if defined(_MSC_VER) && !defined(__clang__)
 #include <intrin.h>
 static void ew_cpu_id(unsigned leaf, unsigned r[4])
 {
@@ -49,21 +49,28 @@ static unsigned ew_cpu_xcr0(void)
 
 static unsigned ew_cpu_detect(void)
 {
-	enum { FMA = 1u << 12, OSXSAVE = 1u << 27, AVX = 1u << 28, XMM_YMM = 0x6 };
-	unsigned r[4] = { 0, 0, 0, 0 };
+	enum { FMA = 1u << 12, OSXSAVE = 1u << 27, AVX = 1u << 28, AVX2 = 1u << 5, AVX512F = 1u << 16 };
+	enum { YMM = 0x6, ZMM = 0xe6 };            /* register state that the system saves, in XCR0 */
+	unsigned r[4] = { 0, 0, 0, 0 }, found = EW_PORTABLE, leaves;
 	ew_cpu_id(0, r);
-	if (r[0] < 1)
-		return EW_PORTABLE;
+	leaves = r[0];
+	if (leaves < 1)
+		return found;
 	ew_cpu_id(1, r);
-	if ((r[2] & (FMA | OSXSAVE | AVX)) != (FMA | OSXSAVE | AVX)
-	    || (ew_cpu_xcr0() & XMM_YMM) != XMM_YMM)
-		return EW_PORTABLE;
-	return EW_PORTABLE | EW_FMA;
+	if ((r[2] & (FMA | OSXSAVE | AVX)) != (FMA | OSXSAVE | AVX) || (ew_cpu_xcr0() & YMM) != YMM)
+		return found;
+	found |= EW_BUILD_FMA ? EW_FMA : 0;
+	if (leaves < 7)
+		return found;
+	ew_cpu_id(7, r);
+	found |= EW_BUILD_AVX2 && r[1] & AVX2 ? EW_AVX2 : 0;
+	found |= EW_BUILD_AVX512 && r[1] & AVX512F && (ew_cpu_xcr0() & ZMM) == ZMM ? EW_AVX512 : 0;
+	return found;
 }
 #else
 static unsigned ew_cpu_detect(void)
 {
-	return EW_BUILD_FMA ? EW_PORTABLE | EW_FMA : EW_PORTABLE;
+	return EW_PORTABLE | (EW_BUILD_FMA ? EW_FMA : 0) | (EW_BUILD_NEON ? EW_NEON : 0);
 }
 #endif
 
@@ -82,7 +89,11 @@ unsigned ew_cpu_target(void)
 	unsigned forced = EW_LOAD(ew_cpu_forced);
 	if (forced)
 		return forced;
-	return ew_targets() & EW_FMA ? EW_FMA : EW_PORTABLE;
+	static const unsigned best[] = { EW_AVX512, EW_NEON, EW_AVX2, EW_FMA };
+	for (int i = 0; i < (int)(sizeof best / sizeof *best); ++i)
+		if (ew_targets() & best[i])
+			return best[i];
+	return EW_PORTABLE;
 }
 
 int ew_use_target(unsigned target)

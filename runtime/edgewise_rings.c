@@ -54,6 +54,9 @@ static void ew_ring_translate(int degree, double dx, double dy, double *a)
 #define EW_SAFE 1e180
 #define EW_LIST_PORTABLE EW_RINGS_PORTABLE_DOUBLE
 #define EW_LIST_FMA EW_RINGS_FMA_DOUBLE
+#define EW_LIST_AVX2 EW_RINGS_AVX2_DOUBLE
+#define EW_LIST_AVX512 EW_RINGS_AVX512_DOUBLE
+#define EW_LIST_NEON EW_RINGS_NEON_DOUBLE
 #define EW_LIST_POLYNOMIALS EW_POLYNOMIALS_DOUBLE
 #include "edgewise_rings_template.h"
 #endif
@@ -68,6 +71,9 @@ static void ew_ring_translate(int degree, double dx, double dy, double *a)
 #define EW_SAFE 1e18
 #define EW_LIST_PORTABLE EW_RINGS_PORTABLE_FLOAT
 #define EW_LIST_FMA EW_RINGS_FMA_FLOAT
+#define EW_LIST_AVX2 EW_RINGS_AVX2_FLOAT
+#define EW_LIST_AVX512 EW_RINGS_AVX512_FLOAT
+#define EW_LIST_NEON EW_RINGS_NEON_FLOAT
 #define EW_LIST_POLYNOMIALS EW_POLYNOMIALS_FLOAT
 #include "edgewise_rings_template.h"
 #endif

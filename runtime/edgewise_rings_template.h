@@ -26,12 +26,33 @@ static EW_RUN *EW_LOCAL(kernel)(int id)
 #define EW_ROW(id, kernel, f, a) kernel,
 	static EW_RUN *const portable[] = { EW_LIST_PORTABLE(EW_ROW) };
 #if EW_BUILD_FMA
-	static EW_RUN *const fma_kernels[] = { EW_LIST_FMA(EW_ROW) };
-	if (ew_cpu_target() == EW_FMA)
-		return fma_kernels[id];
+	static EW_RUN *const fused[] = { EW_LIST_FMA(EW_ROW) };
+#endif
+#if EW_BUILD_AVX2
+	static EW_RUN *const avx2[] = { EW_LIST_AVX2(EW_ROW) };
+#endif
+#if EW_BUILD_AVX512
+	static EW_RUN *const avx512[] = { EW_LIST_AVX512(EW_ROW) };
+#endif
+#if EW_BUILD_NEON
+	static EW_RUN *const neon[] = { EW_LIST_NEON(EW_ROW) };
 #endif
 #undef EW_ROW
-	return portable[id];
+	switch (ew_cpu_target()) {
+#if EW_BUILD_FMA
+	case EW_FMA: return fused[id];
+#endif
+#if EW_BUILD_AVX2
+	case EW_AVX2: return avx2[id];
+#endif
+#if EW_BUILD_AVX512
+	case EW_AVX512: return avx512[id];
+#endif
+#if EW_BUILD_NEON
+	case EW_NEON: return neon[id];
+#endif
+	default: return portable[id];
+	}
 }
 
 static EW_REAL EW_LOCAL(vertex_x)(const EW_LOCAL(vertices) *v, size_t i)
@@ -303,4 +324,7 @@ int EW_NAME(central_moments)(int degree, const EW_REAL *x, const EW_REAL *y, siz
 #undef EW_SAFE
 #undef EW_LIST_PORTABLE
 #undef EW_LIST_FMA
+#undef EW_LIST_AVX2
+#undef EW_LIST_AVX512
+#undef EW_LIST_NEON
 #undef EW_LIST_POLYNOMIALS
