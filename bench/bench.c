@@ -18,7 +18,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { ITEMS = 1024, MAX_ROUNDS = 101, LANES = 16, TARGETS = 2 };
+enum { ITEMS = 1024, MAX_ROUNDS = 101, LANES = 16, TARGETS = 5 };
 
 typedef struct {
 	int f, a;                      /* operations per item on the FMA pipe and the adder */
@@ -27,7 +27,8 @@ typedef struct {
 	double ns[MAX_ROUNDS], slots[MAX_ROUNDS];
 } Kernel;
 
-typedef struct { const char *name; Kernel kernel[TARGETS]; } Row;   /* portable, fma */
+typedef struct { const char *name; Kernel kernel[TARGETS]; } Row;
+enum { PORTABLE, FUSED, AVX2, AVX512, NEON };
 
 static Row doubles[EW_RINGS_COUNT], floats[EW_RINGS_COUNT];
 static double x[ITEMS + 2], y[ITEMS + 2], sum[EW_MAX_ACCUMULATORS * LANES];
@@ -42,16 +43,40 @@ static void list_kernels(void)
 	table[id].kernel[target].f = fma; \
 	table[id].kernel[target].a = add; \
 	table[id].kernel[target].member = symbol;
-#define PORTABLE(id, symbol, f, a) PUT(doubles, 0, run, id, symbol, f, a)
-#define PORTABLEF(id, symbol, f, a) PUT(floats, 0, runf, id, symbol, f, a)
-	EW_RINGS_PORTABLE_DOUBLE(PORTABLE)
-	EW_RINGS_PORTABLE_FLOAT(PORTABLEF)
+#define PORTABLE_D(id, symbol, f, a) PUT(doubles, PORTABLE, run, id, symbol, f, a)
+#define PORTABLE_F(id, symbol, f, a) PUT(floats, PORTABLE, runf, id, symbol, f, a)
+	EW_RINGS_PORTABLE_DOUBLE(PORTABLE_D)
+	EW_RINGS_PORTABLE_FLOAT(PORTABLE_F)
 #if EW_BUILD_FMA
-#define FUSED(id, symbol, f, a) PUT(doubles, 1, run, id, symbol, f, a)
-#define FUSEDF(id, symbol, f, a) PUT(floats, 1, runf, id, symbol, f, a)
+#define FUSED_D(id, symbol, f, a) PUT(doubles, FUSED, run, id, symbol, f, a)
+#define FUSED_F(id, symbol, f, a) PUT(floats, FUSED, runf, id, symbol, f, a)
 	if (ew_targets() & EW_FMA) {
-		EW_RINGS_FMA_DOUBLE(FUSED)
-		EW_RINGS_FMA_FLOAT(FUSEDF)
+		EW_RINGS_FMA_DOUBLE(FUSED_D)
+		EW_RINGS_FMA_FLOAT(FUSED_F)
+	}
+#endif
+#if EW_BUILD_AVX2
+#define AVX2_D(id, symbol, f, a) PUT(doubles, AVX2, run, id, symbol, f, a)
+#define AVX2_F(id, symbol, f, a) PUT(floats, AVX2, runf, id, symbol, f, a)
+	if (ew_targets() & EW_AVX2) {
+		EW_RINGS_AVX2_DOUBLE(AVX2_D)
+		EW_RINGS_AVX2_FLOAT(AVX2_F)
+	}
+#endif
+#if EW_BUILD_AVX512
+#define AVX512_D(id, symbol, f, a) PUT(doubles, AVX512, run, id, symbol, f, a)
+#define AVX512_F(id, symbol, f, a) PUT(floats, AVX512, runf, id, symbol, f, a)
+	if (ew_targets() & EW_AVX512) {
+		EW_RINGS_AVX512_DOUBLE(AVX512_D)
+		EW_RINGS_AVX512_FLOAT(AVX512_F)
+	}
+#endif
+#if EW_BUILD_NEON
+#define NEON_D(id, symbol, f, a) PUT(doubles, NEON, run, id, symbol, f, a)
+#define NEON_F(id, symbol, f, a) PUT(floats, NEON, runf, id, symbol, f, a)
+	if (ew_targets() & EW_NEON) {
+		EW_RINGS_NEON_DOUBLE(NEON_D)
+		EW_RINGS_NEON_FLOAT(NEON_F)
 	}
 #endif
 }
@@ -131,17 +156,23 @@ static double median(double *value, int count)
 
 static void print_table(const char *title, Row *rows, int rounds)
 {
-	printf("\n%-14s   fma: operations  ns/edge   slots  %% of FMA rate   "
-		"portable: operations  ns/edge\n", title);
+	static const char *const names[TARGETS] = { "portable", "fma", "avx2", "avx512", "neon" };
+	printf("\n%-12s operations  slots of fma  %% of FMA rate   ns/edge:", title);
+	for (int t = 0; t < TARGETS; ++t)
+		printf(" %9s", names[t]);
 	for (int id = 0; id < EW_RINGS_COUNT; ++id) {
-		Kernel *portable = &rows[id].kernel[0], *fused = &rows[id].kernel[1];
+		Kernel *kernel = rows[id].kernel;
 		const char *name = rows[id].name + strlen("EW_RING_");
-		double slots = median(fused->slots, rounds);
-		printf("%-14s      %4d + %3d    %8.3f %7.1f  %8.0f %%", name, fused->f, fused->a,
-			median(fused->ns, rounds), slots, 100 * fused->f / slots);
-		printf("         %4d + %3d         %8.3f\n", portable->f, portable->a,
-			median(portable->ns, rounds));
+		double slots = median(kernel[FUSED].slots, rounds);
+		printf("\n%-12s %4d + %-3d  %12.1f  %12.0f %%           ", name, kernel[FUSED].f,
+			kernel[FUSED].a, slots, 100 * kernel[FUSED].f / slots);
+		for (int t = 0; t < TARGETS; ++t)
+			if (kernel[t].run || kernel[t].runf)
+				printf(" %9.3f", median(kernel[t].ns, rounds));
+			else
+				printf(" %9s", "-");
 	}
+	printf("\n");
 }
 
 static void fill_vertices(void)

@@ -121,7 +121,7 @@ static Text *open_file(Files *files, const Request *request, const Target *targe
 static void close_file(Text *text, const Target *target)
 {
 	if (text && target && target->guard)
-		text_add(text, "\n#else\ntypedef int ew_ring_not_built;\n#endif\n");
+		text_add(text, "\n#else\nextern int ew_ring_not_built;    /* a file must not be empty */\n#endif\n");
 }
 
 static void emit_target(Files *files, const Request *request, const Kernels *kernels,

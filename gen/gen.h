@@ -117,7 +117,8 @@ typedef struct {
 enum { PRECISION_DOUBLE = 1, PRECISION_FLOAT = 2 };
 /* The bits of EW_PORTABLE, EW_FMA, ... */
 enum { TARGET_PORTABLE = 1, TARGET_FMA = 2, TARGET_AVX2 = 4, TARGET_AVX512 = 8, TARGET_NEON = 16 };
-enum { ALL_TARGETS = 31 };
+enum { ALL_TARGETS = 31, TARGETS = 5 };
+extern const char *const target_names[TARGETS];   /* in the order of the bits */
 
 typedef struct {
 	int moments;                         /* all moments to this degree; -1: not asked for */

@@ -17,7 +17,6 @@ typedef struct {
 
 static const char *const FAMILIES[] = { "moments" };
 static const char *const PRECISIONS[] = { "double", "float" };
-static const char *const TARGETS[] = { "portable", "fma", "avx2", "avx512", "neon" };
 
 static const char USAGE[] =
 	"usage: gen [OPTION]...\n"
@@ -32,7 +31,7 @@ static const char USAGE[] =
 	"  --polynomial NAME=EXPR a polynomial in x and y, such as soft='(1-x)*(1-y)' "
 	"(repeatable)\n"
 	"  --precision LIST       double,float (default: both)\n"
-	"  --targets LIST         portable,fma (default: both; portable is always there)\n"
+	"  --targets LIST         portable,fma,avx2,avx512,neon (default: all; portable always)\n"
 	"  --prefix NAME          every symbol, macro and file name starts with NAME instead of "
 	"ew, edgewise\n"
 	"where to\n"
@@ -154,7 +153,7 @@ static int read_request(Options *o, const char *option, const char *value)
 		request->precisions = spec_list(option, value, PRECISIONS, LENGTH(PRECISIONS));
 		break;
 	case 5:
-		request->targets = spec_list(option, value, TARGETS, LENGTH(TARGETS));
+		request->targets = spec_list(option, value, target_names, TARGETS);
 		break;
 	}
 	return 1;
@@ -260,7 +259,7 @@ static void print_list(void)
 	while (scheme_names()[schemes])
 		++schemes;
 	print_words("families", FAMILIES, LENGTH(FAMILIES));
-	print_words("targets", TARGETS, LENGTH(TARGETS));
+	print_words("targets", target_names, TARGETS);
 	print_words("precisions", PRECISIONS, LENGTH(PRECISIONS));
 	print_words("schemes", scheme_names(), schemes);
 }

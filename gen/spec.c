@@ -368,6 +368,8 @@ static void check_names(const Request *request)
 		}
 }
 
+const char *const target_names[TARGETS] = { "portable", "fma", "avx2", "avx512", "neon" };
+
 static const char *canonical_command(const Request *request)
 {
 	Text text = { 0 };
@@ -382,10 +384,9 @@ static const char *canonical_command(const Request *request)
 	if (request->precisions != (PRECISION_DOUBLE | PRECISION_FLOAT))
 		text_add(&text, " --precision %s",
 			request->precisions == PRECISION_FLOAT ? "float" : "double");
-	static const char *const names[] = { "portable", "fma", "avx2", "avx512", "neon" };
-	for (int i = 0; i < LENGTH(names) && request->targets != ALL_TARGETS; ++i)
+	for (int i = 0; i < TARGETS && request->targets != ALL_TARGETS; ++i)
 		if (request->targets & 1u << i)
-			text_add(&text, "%s%s", i ? "," : " --targets ", names[i]);
+			text_add(&text, "%s%s", i ? "," : " --targets ", target_names[i]);
 	if (request->prefix)
 		text_add(&text, " --prefix %s", request->prefix);
 	return text_take(&text);

@@ -24,16 +24,31 @@
 #pragma fp_contract(off)
 #endif
 
-/* Can this compiler build the fma kernels, and how? The CPU is asked at run time. */
+/* Which targets can this compiler build? The CPU is asked at run time. */
 #if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__)) && !defined(__TINYC__)
-#define EW_BUILD_FMA 1
+#define EW_X86 1
 #define EW_ATTRIBUTE_FMA __attribute__((target("fma")))
-#elif defined(__aarch64__) || defined(_M_ARM64) || defined(_M_X64) || defined(__FP_FAST_FMA)
-#define EW_BUILD_FMA 1
-#define EW_ATTRIBUTE_FMA
+#define EW_ATTRIBUTE_AVX2 __attribute__((target("avx2,fma")))
+#define EW_ATTRIBUTE_AVX512 __attribute__((target("avx512f")))
 #else
-#define EW_BUILD_FMA 0
+#define EW_X86 0
+#define EW_ATTRIBUTE_FMA
 #endif
+#if defined(__aarch64__)
+#define EW_ARM 1
+#define EW_ATTRIBUTE_NEON
+#else
+#define EW_ARM 0
+#endif
+#if defined(__FP_FAST_FMA)
+#define EW_FAST_FMA 1
+#else
+#define EW_FAST_FMA 0
+#endif
+#define EW_BUILD_FMA (EW_X86 || EW_ARM || EW_FAST_FMA)
+#define EW_BUILD_AVX2 EW_X86
+#define EW_BUILD_AVX512 EW_X86
+#define EW_BUILD_NEON EW_ARM
 
 /* X(m, n, symbol, k): single edges; |result - exact| <= gamma_k W */
 #define EW_LINES_DOUBLE(X) \
@@ -472,6 +487,177 @@ enum {
 	X(EW_RING_X1Y7, ew_ring_x1y7_fma, 38, 2) \
 	X(EW_RING_X0Y8, ew_ring_x0y8_fma, 17, 2)
 
+/* X(id, kernel, f, a): avx2, double; per item f on the FMA pipe, a additions */
+#define EW_RINGS_AVX2_DOUBLE(X) \
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0_avx2, 1, 2) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1_avx2, 4, 4) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2_avx2, 12, 6) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3_avx2, 18, 14) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4_avx2, 33, 12) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5_avx2, 58, 16) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6_avx2, 81, 22) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7_avx2, 108, 29) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8_avx2, 139, 37) \
+	X(EW_RING_X0Y0, ew_ring_x0y0_avx2, 1, 2) \
+	X(EW_RING_X1Y0, ew_ring_x1y0_avx2, 3, 2) \
+	X(EW_RING_X0Y1, ew_ring_x0y1_avx2, 3, 2) \
+	X(EW_RING_X2Y0, ew_ring_x2y0_avx2, 5, 2) \
+	X(EW_RING_X1Y1, ew_ring_x1y1_avx2, 7, 1) \
+	X(EW_RING_X0Y2, ew_ring_x0y2_avx2, 5, 2) \
+	X(EW_RING_X3Y0, ew_ring_x3y0_avx2, 6, 3) \
+	X(EW_RING_X2Y1, ew_ring_x2y1_avx2, 10, 5) \
+	X(EW_RING_X1Y2, ew_ring_x1y2_avx2, 10, 5) \
+	X(EW_RING_X0Y3, ew_ring_x0y3_avx2, 6, 3) \
+	X(EW_RING_X4Y0, ew_ring_x4y0_avx2, 9, 2) \
+	X(EW_RING_X3Y1, ew_ring_x3y1_avx2, 10, 6) \
+	X(EW_RING_X2Y2, ew_ring_x2y2_avx2, 15, 5) \
+	X(EW_RING_X1Y3, ew_ring_x1y3_avx2, 10, 6) \
+	X(EW_RING_X0Y4, ew_ring_x0y4_avx2, 9, 2) \
+	X(EW_RING_X5Y0, ew_ring_x5y0_avx2, 11, 2) \
+	X(EW_RING_X4Y1, ew_ring_x4y1_avx2, 16, 5) \
+	X(EW_RING_X3Y2, ew_ring_x3y2_avx2, 18, 6) \
+	X(EW_RING_X2Y3, ew_ring_x2y3_avx2, 18, 6) \
+	X(EW_RING_X1Y4, ew_ring_x1y4_avx2, 16, 5) \
+	X(EW_RING_X0Y5, ew_ring_x0y5_avx2, 11, 2) \
+	X(EW_RING_X6Y0, ew_ring_x6y0_avx2, 13, 2) \
+	X(EW_RING_X5Y1, ew_ring_x5y1_avx2, 17, 6) \
+	X(EW_RING_X4Y2, ew_ring_x4y2_avx2, 23, 5) \
+	X(EW_RING_X3Y3, ew_ring_x3y3_avx2, 25, 5) \
+	X(EW_RING_X2Y4, ew_ring_x2y4_avx2, 23, 5) \
+	X(EW_RING_X1Y5, ew_ring_x1y5_avx2, 17, 6) \
+	X(EW_RING_X0Y6, ew_ring_x0y6_avx2, 13, 2) \
+	X(EW_RING_X7Y0, ew_ring_x7y0_avx2, 15, 2) \
+	X(EW_RING_X6Y1, ew_ring_x6y1_avx2, 31, 4) \
+	X(EW_RING_X5Y2, ew_ring_x5y2_avx2, 35, 4) \
+	X(EW_RING_X4Y3, ew_ring_x4y3_avx2, 36, 7) \
+	X(EW_RING_X3Y4, ew_ring_x3y4_avx2, 36, 7) \
+	X(EW_RING_X2Y5, ew_ring_x2y5_avx2, 35, 4) \
+	X(EW_RING_X1Y6, ew_ring_x1y6_avx2, 31, 4) \
+	X(EW_RING_X0Y7, ew_ring_x0y7_avx2, 15, 2) \
+	X(EW_RING_X8Y0, ew_ring_x8y0_avx2, 17, 2) \
+	X(EW_RING_X7Y1, ew_ring_x7y1_avx2, 38, 2) \
+	X(EW_RING_X6Y2, ew_ring_x6y2_avx2, 40, 7) \
+	X(EW_RING_X5Y3, ew_ring_x5y3_avx2, 46, 4) \
+	X(EW_RING_X4Y4, ew_ring_x4y4_avx2, 45, 6) \
+	X(EW_RING_X3Y5, ew_ring_x3y5_avx2, 46, 4) \
+	X(EW_RING_X2Y6, ew_ring_x2y6_avx2, 40, 7) \
+	X(EW_RING_X1Y7, ew_ring_x1y7_avx2, 38, 2) \
+	X(EW_RING_X0Y8, ew_ring_x0y8_avx2, 17, 2)
+
+/* X(id, kernel, f, a): avx512, double; per item f on the FMA pipe, a additions */
+#define EW_RINGS_AVX512_DOUBLE(X) \
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0_avx512, 1, 2) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1_avx512, 4, 4) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2_avx512, 12, 6) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3_avx512, 18, 14) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4_avx512, 33, 12) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5_avx512, 58, 16) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6_avx512, 81, 22) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7_avx512, 108, 29) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8_avx512, 139, 37) \
+	X(EW_RING_X0Y0, ew_ring_x0y0_avx512, 1, 2) \
+	X(EW_RING_X1Y0, ew_ring_x1y0_avx512, 3, 2) \
+	X(EW_RING_X0Y1, ew_ring_x0y1_avx512, 3, 2) \
+	X(EW_RING_X2Y0, ew_ring_x2y0_avx512, 5, 2) \
+	X(EW_RING_X1Y1, ew_ring_x1y1_avx512, 7, 1) \
+	X(EW_RING_X0Y2, ew_ring_x0y2_avx512, 5, 2) \
+	X(EW_RING_X3Y0, ew_ring_x3y0_avx512, 6, 3) \
+	X(EW_RING_X2Y1, ew_ring_x2y1_avx512, 10, 5) \
+	X(EW_RING_X1Y2, ew_ring_x1y2_avx512, 10, 5) \
+	X(EW_RING_X0Y3, ew_ring_x0y3_avx512, 6, 3) \
+	X(EW_RING_X4Y0, ew_ring_x4y0_avx512, 9, 2) \
+	X(EW_RING_X3Y1, ew_ring_x3y1_avx512, 10, 6) \
+	X(EW_RING_X2Y2, ew_ring_x2y2_avx512, 15, 5) \
+	X(EW_RING_X1Y3, ew_ring_x1y3_avx512, 10, 6) \
+	X(EW_RING_X0Y4, ew_ring_x0y4_avx512, 9, 2) \
+	X(EW_RING_X5Y0, ew_ring_x5y0_avx512, 11, 2) \
+	X(EW_RING_X4Y1, ew_ring_x4y1_avx512, 16, 5) \
+	X(EW_RING_X3Y2, ew_ring_x3y2_avx512, 18, 6) \
+	X(EW_RING_X2Y3, ew_ring_x2y3_avx512, 18, 6) \
+	X(EW_RING_X1Y4, ew_ring_x1y4_avx512, 16, 5) \
+	X(EW_RING_X0Y5, ew_ring_x0y5_avx512, 11, 2) \
+	X(EW_RING_X6Y0, ew_ring_x6y0_avx512, 13, 2) \
+	X(EW_RING_X5Y1, ew_ring_x5y1_avx512, 17, 6) \
+	X(EW_RING_X4Y2, ew_ring_x4y2_avx512, 23, 5) \
+	X(EW_RING_X3Y3, ew_ring_x3y3_avx512, 25, 5) \
+	X(EW_RING_X2Y4, ew_ring_x2y4_avx512, 23, 5) \
+	X(EW_RING_X1Y5, ew_ring_x1y5_avx512, 17, 6) \
+	X(EW_RING_X0Y6, ew_ring_x0y6_avx512, 13, 2) \
+	X(EW_RING_X7Y0, ew_ring_x7y0_avx512, 15, 2) \
+	X(EW_RING_X6Y1, ew_ring_x6y1_avx512, 31, 4) \
+	X(EW_RING_X5Y2, ew_ring_x5y2_avx512, 35, 4) \
+	X(EW_RING_X4Y3, ew_ring_x4y3_avx512, 36, 7) \
+	X(EW_RING_X3Y4, ew_ring_x3y4_avx512, 36, 7) \
+	X(EW_RING_X2Y5, ew_ring_x2y5_avx512, 35, 4) \
+	X(EW_RING_X1Y6, ew_ring_x1y6_avx512, 31, 4) \
+	X(EW_RING_X0Y7, ew_ring_x0y7_avx512, 15, 2) \
+	X(EW_RING_X8Y0, ew_ring_x8y0_avx512, 17, 2) \
+	X(EW_RING_X7Y1, ew_ring_x7y1_avx512, 38, 2) \
+	X(EW_RING_X6Y2, ew_ring_x6y2_avx512, 40, 7) \
+	X(EW_RING_X5Y3, ew_ring_x5y3_avx512, 46, 4) \
+	X(EW_RING_X4Y4, ew_ring_x4y4_avx512, 45, 6) \
+	X(EW_RING_X3Y5, ew_ring_x3y5_avx512, 46, 4) \
+	X(EW_RING_X2Y6, ew_ring_x2y6_avx512, 40, 7) \
+	X(EW_RING_X1Y7, ew_ring_x1y7_avx512, 38, 2) \
+	X(EW_RING_X0Y8, ew_ring_x0y8_avx512, 17, 2)
+
+/* X(id, kernel, f, a): neon, double; per item f on the FMA pipe, a additions */
+#define EW_RINGS_NEON_DOUBLE(X) \
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0_neon, 1, 2) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1_neon, 4, 4) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2_neon, 12, 6) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3_neon, 18, 14) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4_neon, 33, 12) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5_neon, 58, 16) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6_neon, 81, 22) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7_neon, 108, 29) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8_neon, 139, 37) \
+	X(EW_RING_X0Y0, ew_ring_x0y0_neon, 1, 2) \
+	X(EW_RING_X1Y0, ew_ring_x1y0_neon, 3, 2) \
+	X(EW_RING_X0Y1, ew_ring_x0y1_neon, 3, 2) \
+	X(EW_RING_X2Y0, ew_ring_x2y0_neon, 5, 2) \
+	X(EW_RING_X1Y1, ew_ring_x1y1_neon, 7, 1) \
+	X(EW_RING_X0Y2, ew_ring_x0y2_neon, 5, 2) \
+	X(EW_RING_X3Y0, ew_ring_x3y0_neon, 6, 3) \
+	X(EW_RING_X2Y1, ew_ring_x2y1_neon, 10, 5) \
+	X(EW_RING_X1Y2, ew_ring_x1y2_neon, 10, 5) \
+	X(EW_RING_X0Y3, ew_ring_x0y3_neon, 6, 3) \
+	X(EW_RING_X4Y0, ew_ring_x4y0_neon, 9, 2) \
+	X(EW_RING_X3Y1, ew_ring_x3y1_neon, 10, 6) \
+	X(EW_RING_X2Y2, ew_ring_x2y2_neon, 15, 5) \
+	X(EW_RING_X1Y3, ew_ring_x1y3_neon, 10, 6) \
+	X(EW_RING_X0Y4, ew_ring_x0y4_neon, 9, 2) \
+	X(EW_RING_X5Y0, ew_ring_x5y0_neon, 11, 2) \
+	X(EW_RING_X4Y1, ew_ring_x4y1_neon, 16, 5) \
+	X(EW_RING_X3Y2, ew_ring_x3y2_neon, 18, 6) \
+	X(EW_RING_X2Y3, ew_ring_x2y3_neon, 18, 6) \
+	X(EW_RING_X1Y4, ew_ring_x1y4_neon, 16, 5) \
+	X(EW_RING_X0Y5, ew_ring_x0y5_neon, 11, 2) \
+	X(EW_RING_X6Y0, ew_ring_x6y0_neon, 13, 2) \
+	X(EW_RING_X5Y1, ew_ring_x5y1_neon, 17, 6) \
+	X(EW_RING_X4Y2, ew_ring_x4y2_neon, 23, 5) \
+	X(EW_RING_X3Y3, ew_ring_x3y3_neon, 25, 5) \
+	X(EW_RING_X2Y4, ew_ring_x2y4_neon, 23, 5) \
+	X(EW_RING_X1Y5, ew_ring_x1y5_neon, 17, 6) \
+	X(EW_RING_X0Y6, ew_ring_x0y6_neon, 13, 2) \
+	X(EW_RING_X7Y0, ew_ring_x7y0_neon, 15, 2) \
+	X(EW_RING_X6Y1, ew_ring_x6y1_neon, 31, 4) \
+	X(EW_RING_X5Y2, ew_ring_x5y2_neon, 35, 4) \
+	X(EW_RING_X4Y3, ew_ring_x4y3_neon, 36, 7) \
+	X(EW_RING_X3Y4, ew_ring_x3y4_neon, 36, 7) \
+	X(EW_RING_X2Y5, ew_ring_x2y5_neon, 35, 4) \
+	X(EW_RING_X1Y6, ew_ring_x1y6_neon, 31, 4) \
+	X(EW_RING_X0Y7, ew_ring_x0y7_neon, 15, 2) \
+	X(EW_RING_X8Y0, ew_ring_x8y0_neon, 17, 2) \
+	X(EW_RING_X7Y1, ew_ring_x7y1_neon, 38, 2) \
+	X(EW_RING_X6Y2, ew_ring_x6y2_neon, 40, 7) \
+	X(EW_RING_X5Y3, ew_ring_x5y3_neon, 46, 4) \
+	X(EW_RING_X4Y4, ew_ring_x4y4_neon, 45, 6) \
+	X(EW_RING_X3Y5, ew_ring_x3y5_neon, 46, 4) \
+	X(EW_RING_X2Y6, ew_ring_x2y6_neon, 40, 7) \
+	X(EW_RING_X1Y7, ew_ring_x1y7_neon, 38, 2) \
+	X(EW_RING_X0Y8, ew_ring_x0y8_neon, 17, 2)
+
 /* X(function, id, edge, k): a polynomial over a ring, and over one edge with its k; float */
 #define EW_POLYNOMIALS_FLOAT(X)
 
@@ -589,6 +775,177 @@ enum {
 	X(EW_RING_X1Y7, ew_ring_x1y7f_fma, 38, 2) \
 	X(EW_RING_X0Y8, ew_ring_x0y8f_fma, 17, 2)
 
+/* X(id, kernel, f, a): avx2, float; per item f on the FMA pipe, a additions */
+#define EW_RINGS_AVX2_FLOAT(X) \
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0f_avx2, 1, 2) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1f_avx2, 4, 4) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2f_avx2, 12, 6) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3f_avx2, 18, 14) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4f_avx2, 33, 12) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5f_avx2, 58, 16) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6f_avx2, 81, 22) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7f_avx2, 108, 29) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8f_avx2, 139, 37) \
+	X(EW_RING_X0Y0, ew_ring_x0y0f_avx2, 1, 2) \
+	X(EW_RING_X1Y0, ew_ring_x1y0f_avx2, 3, 2) \
+	X(EW_RING_X0Y1, ew_ring_x0y1f_avx2, 3, 2) \
+	X(EW_RING_X2Y0, ew_ring_x2y0f_avx2, 5, 2) \
+	X(EW_RING_X1Y1, ew_ring_x1y1f_avx2, 7, 1) \
+	X(EW_RING_X0Y2, ew_ring_x0y2f_avx2, 5, 2) \
+	X(EW_RING_X3Y0, ew_ring_x3y0f_avx2, 6, 3) \
+	X(EW_RING_X2Y1, ew_ring_x2y1f_avx2, 10, 5) \
+	X(EW_RING_X1Y2, ew_ring_x1y2f_avx2, 10, 5) \
+	X(EW_RING_X0Y3, ew_ring_x0y3f_avx2, 6, 3) \
+	X(EW_RING_X4Y0, ew_ring_x4y0f_avx2, 9, 2) \
+	X(EW_RING_X3Y1, ew_ring_x3y1f_avx2, 10, 6) \
+	X(EW_RING_X2Y2, ew_ring_x2y2f_avx2, 15, 5) \
+	X(EW_RING_X1Y3, ew_ring_x1y3f_avx2, 10, 6) \
+	X(EW_RING_X0Y4, ew_ring_x0y4f_avx2, 9, 2) \
+	X(EW_RING_X5Y0, ew_ring_x5y0f_avx2, 11, 2) \
+	X(EW_RING_X4Y1, ew_ring_x4y1f_avx2, 16, 5) \
+	X(EW_RING_X3Y2, ew_ring_x3y2f_avx2, 18, 6) \
+	X(EW_RING_X2Y3, ew_ring_x2y3f_avx2, 18, 6) \
+	X(EW_RING_X1Y4, ew_ring_x1y4f_avx2, 16, 5) \
+	X(EW_RING_X0Y5, ew_ring_x0y5f_avx2, 11, 2) \
+	X(EW_RING_X6Y0, ew_ring_x6y0f_avx2, 13, 2) \
+	X(EW_RING_X5Y1, ew_ring_x5y1f_avx2, 17, 6) \
+	X(EW_RING_X4Y2, ew_ring_x4y2f_avx2, 23, 5) \
+	X(EW_RING_X3Y3, ew_ring_x3y3f_avx2, 25, 5) \
+	X(EW_RING_X2Y4, ew_ring_x2y4f_avx2, 23, 5) \
+	X(EW_RING_X1Y5, ew_ring_x1y5f_avx2, 17, 6) \
+	X(EW_RING_X0Y6, ew_ring_x0y6f_avx2, 13, 2) \
+	X(EW_RING_X7Y0, ew_ring_x7y0f_avx2, 15, 2) \
+	X(EW_RING_X6Y1, ew_ring_x6y1f_avx2, 31, 4) \
+	X(EW_RING_X5Y2, ew_ring_x5y2f_avx2, 35, 4) \
+	X(EW_RING_X4Y3, ew_ring_x4y3f_avx2, 36, 7) \
+	X(EW_RING_X3Y4, ew_ring_x3y4f_avx2, 36, 7) \
+	X(EW_RING_X2Y5, ew_ring_x2y5f_avx2, 35, 4) \
+	X(EW_RING_X1Y6, ew_ring_x1y6f_avx2, 31, 4) \
+	X(EW_RING_X0Y7, ew_ring_x0y7f_avx2, 15, 2) \
+	X(EW_RING_X8Y0, ew_ring_x8y0f_avx2, 17, 2) \
+	X(EW_RING_X7Y1, ew_ring_x7y1f_avx2, 38, 2) \
+	X(EW_RING_X6Y2, ew_ring_x6y2f_avx2, 40, 7) \
+	X(EW_RING_X5Y3, ew_ring_x5y3f_avx2, 46, 4) \
+	X(EW_RING_X4Y4, ew_ring_x4y4f_avx2, 45, 6) \
+	X(EW_RING_X3Y5, ew_ring_x3y5f_avx2, 46, 4) \
+	X(EW_RING_X2Y6, ew_ring_x2y6f_avx2, 40, 7) \
+	X(EW_RING_X1Y7, ew_ring_x1y7f_avx2, 38, 2) \
+	X(EW_RING_X0Y8, ew_ring_x0y8f_avx2, 17, 2)
+
+/* X(id, kernel, f, a): avx512, float; per item f on the FMA pipe, a additions */
+#define EW_RINGS_AVX512_FLOAT(X) \
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0f_avx512, 1, 2) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1f_avx512, 4, 4) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2f_avx512, 12, 6) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3f_avx512, 18, 14) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4f_avx512, 33, 12) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5f_avx512, 58, 16) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6f_avx512, 81, 22) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7f_avx512, 108, 29) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8f_avx512, 139, 37) \
+	X(EW_RING_X0Y0, ew_ring_x0y0f_avx512, 1, 2) \
+	X(EW_RING_X1Y0, ew_ring_x1y0f_avx512, 3, 2) \
+	X(EW_RING_X0Y1, ew_ring_x0y1f_avx512, 3, 2) \
+	X(EW_RING_X2Y0, ew_ring_x2y0f_avx512, 5, 2) \
+	X(EW_RING_X1Y1, ew_ring_x1y1f_avx512, 7, 1) \
+	X(EW_RING_X0Y2, ew_ring_x0y2f_avx512, 5, 2) \
+	X(EW_RING_X3Y0, ew_ring_x3y0f_avx512, 6, 3) \
+	X(EW_RING_X2Y1, ew_ring_x2y1f_avx512, 10, 5) \
+	X(EW_RING_X1Y2, ew_ring_x1y2f_avx512, 10, 5) \
+	X(EW_RING_X0Y3, ew_ring_x0y3f_avx512, 6, 3) \
+	X(EW_RING_X4Y0, ew_ring_x4y0f_avx512, 9, 2) \
+	X(EW_RING_X3Y1, ew_ring_x3y1f_avx512, 10, 6) \
+	X(EW_RING_X2Y2, ew_ring_x2y2f_avx512, 15, 5) \
+	X(EW_RING_X1Y3, ew_ring_x1y3f_avx512, 10, 6) \
+	X(EW_RING_X0Y4, ew_ring_x0y4f_avx512, 9, 2) \
+	X(EW_RING_X5Y0, ew_ring_x5y0f_avx512, 11, 2) \
+	X(EW_RING_X4Y1, ew_ring_x4y1f_avx512, 16, 5) \
+	X(EW_RING_X3Y2, ew_ring_x3y2f_avx512, 18, 6) \
+	X(EW_RING_X2Y3, ew_ring_x2y3f_avx512, 18, 6) \
+	X(EW_RING_X1Y4, ew_ring_x1y4f_avx512, 16, 5) \
+	X(EW_RING_X0Y5, ew_ring_x0y5f_avx512, 11, 2) \
+	X(EW_RING_X6Y0, ew_ring_x6y0f_avx512, 13, 2) \
+	X(EW_RING_X5Y1, ew_ring_x5y1f_avx512, 17, 6) \
+	X(EW_RING_X4Y2, ew_ring_x4y2f_avx512, 23, 5) \
+	X(EW_RING_X3Y3, ew_ring_x3y3f_avx512, 25, 5) \
+	X(EW_RING_X2Y4, ew_ring_x2y4f_avx512, 23, 5) \
+	X(EW_RING_X1Y5, ew_ring_x1y5f_avx512, 17, 6) \
+	X(EW_RING_X0Y6, ew_ring_x0y6f_avx512, 13, 2) \
+	X(EW_RING_X7Y0, ew_ring_x7y0f_avx512, 15, 2) \
+	X(EW_RING_X6Y1, ew_ring_x6y1f_avx512, 31, 4) \
+	X(EW_RING_X5Y2, ew_ring_x5y2f_avx512, 35, 4) \
+	X(EW_RING_X4Y3, ew_ring_x4y3f_avx512, 36, 7) \
+	X(EW_RING_X3Y4, ew_ring_x3y4f_avx512, 36, 7) \
+	X(EW_RING_X2Y5, ew_ring_x2y5f_avx512, 35, 4) \
+	X(EW_RING_X1Y6, ew_ring_x1y6f_avx512, 31, 4) \
+	X(EW_RING_X0Y7, ew_ring_x0y7f_avx512, 15, 2) \
+	X(EW_RING_X8Y0, ew_ring_x8y0f_avx512, 17, 2) \
+	X(EW_RING_X7Y1, ew_ring_x7y1f_avx512, 38, 2) \
+	X(EW_RING_X6Y2, ew_ring_x6y2f_avx512, 40, 7) \
+	X(EW_RING_X5Y3, ew_ring_x5y3f_avx512, 46, 4) \
+	X(EW_RING_X4Y4, ew_ring_x4y4f_avx512, 45, 6) \
+	X(EW_RING_X3Y5, ew_ring_x3y5f_avx512, 46, 4) \
+	X(EW_RING_X2Y6, ew_ring_x2y6f_avx512, 40, 7) \
+	X(EW_RING_X1Y7, ew_ring_x1y7f_avx512, 38, 2) \
+	X(EW_RING_X0Y8, ew_ring_x0y8f_avx512, 17, 2)
+
+/* X(id, kernel, f, a): neon, float; per item f on the FMA pipe, a additions */
+#define EW_RINGS_NEON_FLOAT(X) \
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0f_neon, 1, 2) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1f_neon, 4, 4) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2f_neon, 12, 6) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3f_neon, 18, 14) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4f_neon, 33, 12) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5f_neon, 58, 16) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6f_neon, 81, 22) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7f_neon, 108, 29) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8f_neon, 139, 37) \
+	X(EW_RING_X0Y0, ew_ring_x0y0f_neon, 1, 2) \
+	X(EW_RING_X1Y0, ew_ring_x1y0f_neon, 3, 2) \
+	X(EW_RING_X0Y1, ew_ring_x0y1f_neon, 3, 2) \
+	X(EW_RING_X2Y0, ew_ring_x2y0f_neon, 5, 2) \
+	X(EW_RING_X1Y1, ew_ring_x1y1f_neon, 7, 1) \
+	X(EW_RING_X0Y2, ew_ring_x0y2f_neon, 5, 2) \
+	X(EW_RING_X3Y0, ew_ring_x3y0f_neon, 6, 3) \
+	X(EW_RING_X2Y1, ew_ring_x2y1f_neon, 10, 5) \
+	X(EW_RING_X1Y2, ew_ring_x1y2f_neon, 10, 5) \
+	X(EW_RING_X0Y3, ew_ring_x0y3f_neon, 6, 3) \
+	X(EW_RING_X4Y0, ew_ring_x4y0f_neon, 9, 2) \
+	X(EW_RING_X3Y1, ew_ring_x3y1f_neon, 10, 6) \
+	X(EW_RING_X2Y2, ew_ring_x2y2f_neon, 15, 5) \
+	X(EW_RING_X1Y3, ew_ring_x1y3f_neon, 10, 6) \
+	X(EW_RING_X0Y4, ew_ring_x0y4f_neon, 9, 2) \
+	X(EW_RING_X5Y0, ew_ring_x5y0f_neon, 11, 2) \
+	X(EW_RING_X4Y1, ew_ring_x4y1f_neon, 16, 5) \
+	X(EW_RING_X3Y2, ew_ring_x3y2f_neon, 18, 6) \
+	X(EW_RING_X2Y3, ew_ring_x2y3f_neon, 18, 6) \
+	X(EW_RING_X1Y4, ew_ring_x1y4f_neon, 16, 5) \
+	X(EW_RING_X0Y5, ew_ring_x0y5f_neon, 11, 2) \
+	X(EW_RING_X6Y0, ew_ring_x6y0f_neon, 13, 2) \
+	X(EW_RING_X5Y1, ew_ring_x5y1f_neon, 17, 6) \
+	X(EW_RING_X4Y2, ew_ring_x4y2f_neon, 23, 5) \
+	X(EW_RING_X3Y3, ew_ring_x3y3f_neon, 25, 5) \
+	X(EW_RING_X2Y4, ew_ring_x2y4f_neon, 23, 5) \
+	X(EW_RING_X1Y5, ew_ring_x1y5f_neon, 17, 6) \
+	X(EW_RING_X0Y6, ew_ring_x0y6f_neon, 13, 2) \
+	X(EW_RING_X7Y0, ew_ring_x7y0f_neon, 15, 2) \
+	X(EW_RING_X6Y1, ew_ring_x6y1f_neon, 31, 4) \
+	X(EW_RING_X5Y2, ew_ring_x5y2f_neon, 35, 4) \
+	X(EW_RING_X4Y3, ew_ring_x4y3f_neon, 36, 7) \
+	X(EW_RING_X3Y4, ew_ring_x3y4f_neon, 36, 7) \
+	X(EW_RING_X2Y5, ew_ring_x2y5f_neon, 35, 4) \
+	X(EW_RING_X1Y6, ew_ring_x1y6f_neon, 31, 4) \
+	X(EW_RING_X0Y7, ew_ring_x0y7f_neon, 15, 2) \
+	X(EW_RING_X8Y0, ew_ring_x8y0f_neon, 17, 2) \
+	X(EW_RING_X7Y1, ew_ring_x7y1f_neon, 38, 2) \
+	X(EW_RING_X6Y2, ew_ring_x6y2f_neon, 40, 7) \
+	X(EW_RING_X5Y3, ew_ring_x5y3f_neon, 46, 4) \
+	X(EW_RING_X4Y4, ew_ring_x4y4f_neon, 45, 6) \
+	X(EW_RING_X3Y5, ew_ring_x3y5f_neon, 46, 4) \
+	X(EW_RING_X2Y6, ew_ring_x2y6f_neon, 40, 7) \
+	X(EW_RING_X1Y7, ew_ring_x1y7f_neon, 38, 2) \
+	X(EW_RING_X0Y8, ew_ring_x0y8f_neon, 17, 2)
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -597,6 +954,20 @@ extern "C" {
  * sum[accumulator * lanes + lane]. Results: finish(sums over all lanes, out). */
 typedef void ew_ring_run(const double *x, const double *y, double cx, size_t count, double *sum);
 typedef void ew_ring_runf(const float *x, const float *y, float cx, size_t count, float *sum);
+/* pad = from[0 .. rest-1], then zeros. */
+static inline const double *ew_ring_pad(double *pad, const double *from, size_t rest, size_t width)
+{
+	for (size_t i = 0; i < width; ++i)
+		pad[i] = i < rest ? from[i] : 0;
+	return pad;
+}
+/* pad = from[0 .. rest-1], then zeros. */
+static inline const float *ew_ring_padf(float *pad, const float *from, size_t rest, size_t width)
+{
+	for (size_t i = 0; i < width; ++i)
+		pad[i] = i < rest ? from[i] : 0;
+	return pad;
+}
 typedef void ew_ring_finish(const double *sum, double *out);
 
 #define EW_DECLARE(id, window, turns, accumulators, outputs, finish) ew_ring_finish finish;
@@ -610,12 +981,42 @@ EW_RINGS_PORTABLE_DOUBLE(EW_DECLARE)
 EW_RINGS_FMA_DOUBLE(EW_DECLARE)
 #undef EW_DECLARE
 #endif
+#if EW_BUILD_AVX2
+#define EW_DECLARE(id, kernel, f, a) ew_ring_run kernel;
+EW_RINGS_AVX2_DOUBLE(EW_DECLARE)
+#undef EW_DECLARE
+#endif
+#if EW_BUILD_AVX512
+#define EW_DECLARE(id, kernel, f, a) ew_ring_run kernel;
+EW_RINGS_AVX512_DOUBLE(EW_DECLARE)
+#undef EW_DECLARE
+#endif
+#if EW_BUILD_NEON
+#define EW_DECLARE(id, kernel, f, a) ew_ring_run kernel;
+EW_RINGS_NEON_DOUBLE(EW_DECLARE)
+#undef EW_DECLARE
+#endif
 #define EW_DECLARE(id, kernel, f, a) ew_ring_runf kernel;
 EW_RINGS_PORTABLE_FLOAT(EW_DECLARE)
 #undef EW_DECLARE
 #if EW_BUILD_FMA
 #define EW_DECLARE(id, kernel, f, a) ew_ring_runf kernel;
 EW_RINGS_FMA_FLOAT(EW_DECLARE)
+#undef EW_DECLARE
+#endif
+#if EW_BUILD_AVX2
+#define EW_DECLARE(id, kernel, f, a) ew_ring_runf kernel;
+EW_RINGS_AVX2_FLOAT(EW_DECLARE)
+#undef EW_DECLARE
+#endif
+#if EW_BUILD_AVX512
+#define EW_DECLARE(id, kernel, f, a) ew_ring_runf kernel;
+EW_RINGS_AVX512_FLOAT(EW_DECLARE)
+#undef EW_DECLARE
+#endif
+#if EW_BUILD_NEON
+#define EW_DECLARE(id, kernel, f, a) ew_ring_runf kernel;
+EW_RINGS_NEON_FLOAT(EW_DECLARE)
 #undef EW_DECLARE
 #endif
 

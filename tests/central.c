@@ -201,6 +201,8 @@ static void expect_central(const Api *api, const Local *l, int degree, const voi
 		for (int n = 0; m + n <= degree; n++) {
 			const double far = moved_weight(l, m, n, cx + dx, cy + dy);
 			const double about = 1.001 * mpq_get_d(l->about[ref_index(m, n)].weight);
+			if (api->bits == 24 && fmax(far, about) * largest_sum(m + n) > FLT_MAX)
+				continue;        /* the terms may overflow, as the header says */
 			const double bound = g * fmax(far, about)
 				+ (far - moved_weight(l, m, n, cx, cy))
 				+ ref_tiny(k, m + n, api->bits, l->ring.x, l->ring.y, l->ring.n);

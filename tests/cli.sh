@@ -231,10 +231,13 @@ check precision
 targets() {
 	gen --max-degree 1 --targets portable --out d
 	gen --max-degree 1 --targets fma --out with
-	gen --max-degree 1 --out both
+	gen --max-degree 1 --targets portable,fma --out both
 	diff -r with both
 	[ -f both/edgewise_moments_fma.c ]
-	find d -name '*fma*' | refute grep .
+	find both -name '*avx*' | refute grep .
+	gen --max-degree 1 --targets portable,fma,avx2,avx512,neon --out all
+	gen --max-degree 1 --check --out all
+	find d -name '*fma*' -o -name '*avx*' -o -name '*neon*' | refute grep .
 	build d
 	nm -P alone/*.o | refute grep fma
 	cat >main.c <<-END

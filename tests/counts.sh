@@ -5,7 +5,7 @@
 #
 # fma(, *, binary + and binary - in the loop body of every ring kernel, and in every single-edge
 # function, against the comment above it, the manifest and the list in edgewise_kernels.h;
-# the moments of the fma target also against the promised bars. Loads and loop headers are not
+# the moments of the fma target also against the promised bars (vector targets print its program). Loads and loop headers are not
 # operations, nor is the sign inside a constant or before an operand.
 set -u
 build=${1:-build}
@@ -149,7 +149,7 @@ END
 
 counts() {
 	awk -f "$work/counts.awk" "$1/edgewise_manifest.json" "$1/edgewise_kernels.h" \
-		"$1"/edgewise_line*.c "$1"/edgewise_moments*.c "$1"/edgewise_integrands*.c
+		"$1"/edgewise_line*.c "$1"/edgewise_*_portable*.c "$1"/edgewise_*_fma*.c
 }
 
 # One operation more in one kernel must be noticed.
