@@ -5,7 +5,8 @@
  * the folder as it was, unchanged files keep their time, and readers never see half a file.
  * The manifest in the folder names what gen wrote there: a later run removes files of its own that
  * it no longer writes, if nobody changed them, and touches nothing else. A file in the folder that
- * gen did not write is never overwritten; a FILE named on the command line is. Devices and pipes are written in place, before any rename. */
+ * gen did not write is never overwritten; a FILE named on the command line is. Devices and pipes
+ * are written in place, before any rename. */
 #include "gen.h"
 
 #include <errno.h>
@@ -249,7 +250,8 @@ static char *whereabouts(const char *path)
 	char *directory = slash ? copy_string(path, (size_t)(slash - path) + 1) : format(".");
 	struct stat info = { 0 };
 	stat(directory, &info);
-	return format("%llu:%llu/%s", (unsigned long long)info.st_dev, (unsigned long long)info.st_ino,
+	return format("%llu:%llu/%s", (unsigned long long)info.st_dev,
+		(unsigned long long)info.st_ino,
 		slash ? slash + 1 : path);
 }
 

@@ -17,22 +17,30 @@ static const Vector avx2 = {
 static const Vector avx512 = {
 	"immintrin.h", "_mm512", { "__m512d", "__m512" }, { "pd", "ps" }, { 8, 16 }, 32, SPELL_X86,
 	"%_loadu_@($1)", "%_storeu_@($1, $2)",
-	{ "_mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512($2), _mm512_castpd_si512($1), $3))",
-	  "_mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512($2), _mm512_castps_si512($1), $3))" },
+	/* maskz: some compilers warn about the undefined operand inside the plain intrinsic */
+	{ "_mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512($2), "
+	  "_mm512_castpd_si512($1), $3))",
+	  "_mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512($2), "
+	  "_mm512_castps_si512($1), $3))" },
 };
 static const Vector neon = {
-	"arm_neon.h", "", { "float64x2_t", "float32x4_t" }, { "f64", "f32" }, { 2, 4 }, 32, SPELL_NEON,
+	"arm_neon.h", "", { "float64x2_t", "float32x4_t" }, { "f64", "f32" }, { 2, 4 }, 32,
+	SPELL_NEON,
 	"vld1q_@($1)", "vst1q_@($1, $2)", { NULL, NULL },
 };
 
 const Target targets[] = {
-	{ "portable", TARGET_PORTABLE, 0, NULL, NULL, NULL, "plain C99, no fused operations", NULL },
+	{ "portable", TARGET_PORTABLE, 0, NULL, NULL, NULL, "plain C99, no fused operations",
+		NULL },
 	{ "fma", TARGET_FMA, 1, "EW_BUILD_FMA", "(EW_X86 || EW_ARM || EW_FAST_FMA)",
 		"EW_ATTRIBUTE_FMA", "scalar fused multiply-add",
 		NULL },
-	{ "avx2", TARGET_AVX2, 1, "EW_BUILD_AVX2", "EW_X86", "EW_ATTRIBUTE_AVX2", "AVX2 with FMA", &avx2 },
-	{ "avx512", TARGET_AVX512, 1, "EW_BUILD_AVX512", "EW_X86", "EW_ATTRIBUTE_AVX512", "AVX-512 F", &avx512 },
-	{ "neon", TARGET_NEON, 1, "EW_BUILD_NEON", "EW_ARM", "EW_ATTRIBUTE_NEON", "AArch64 NEON", &neon },
+	{ "avx2", TARGET_AVX2, 1, "EW_BUILD_AVX2", "EW_X86", "EW_ATTRIBUTE_AVX2",
+		"AVX2 with FMA", &avx2 },
+	{ "avx512", TARGET_AVX512, 1, "EW_BUILD_AVX512", "EW_X86", "EW_ATTRIBUTE_AVX512",
+		"AVX-512 F", &avx512 },
+	{ "neon", TARGET_NEON, 1, "EW_BUILD_NEON", "EW_ARM", "EW_ATTRIBUTE_NEON",
+		"AArch64 NEON", &neon },
 };
 const int target_count = LENGTH(targets);
 
@@ -282,7 +290,8 @@ void emit_program(Text *text, const Program *program, const Style *style)
 	}
 	for (int k = 0; k < dag->outs; ++k)          /* an output that is a bare accumulator */
 		if (op_operands(dag->node[dag->out[k]].op) == 0)
-			emit_statement(text, style->indent, format("%s%s;", format(style->output, style->first + k),
+			emit_statement(text, style->indent, format("%s%s;",
+				format(style->output, style->first + k),
 				expression(&printer, dag->out[k], 0)));
 	arena_release(mark);
 }

@@ -70,8 +70,8 @@ static const Entry rings[] = {
 	{ has_centroid,
 	"Centroid and all moments about it; out[1] = out[2] = 0. Computed about the first vertex, "
 	"then about the centroid, so nothing cancels far from the origin. If the area is 0: "
-	"EW_ZERO_AREA, c and out are NaN. Error: gamma_(K + 4 degree + 24) times the sum with every "
-	"term positive, about the centroid or about the first vertex, whichever is larger.",
+	"EW_ZERO_AREA, c and out are NaN. Error: gamma_(K + 4 degree + 24) times the sum with "
+	"every term positive, about the centroid or about the first vertex, whichever is larger.",
 	"int ew_central_moments@(int degree, const REAL *x, const REAL *y, size_t n, REAL c[2], "
 	"REAL *out)" },
 };
@@ -141,7 +141,8 @@ static const char *const PREAMBLE =
 	"An integral over a region is a sum over its edges. Counterclockwise is positive, holes "
 	"run clockwise and subtract, a self-overlapping region is weighted by its winding number: "
 	"add up what the rings of a region return.\n\n"
-	"Bounds hold unless a product underflows: |coordinate|^(degree + 2) should be a normal number. "
+	"Bounds hold unless a product underflows: |coordinate|^(degree + 2) should be a normal "
+	"number. "
 	"Sums are formed before the rational factor of a moment is applied, so they overflow when "
 	"(m+n+2)!/(m! n!) times the result would.\n\n"
 	"A ring is n vertices (x[i], y[i]); the edge from the last to the first is implied, and a "

@@ -33,7 +33,8 @@ static void add_environment(Text *text, const Request *request)
 		"#elif defined(__GNUC__) && !defined(__TINYC__)\n"
 		"#pragma GCC optimize (\"fp-contract=off\")\n"
 		"#elif defined(_MSC_VER)\n#pragma fp_contract(off)\n#endif\n\n");
-	text_add(text, "/* Which targets can this compiler build? The CPU is asked at run time. */\n"
+	text_add(text, "/* Which targets can this compiler build? "
+		"The CPU is asked at run time. */\n"
 		"#if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__)) "
 		"&& !defined(__TINYC__)\n#define EW_X86 1\n"
 		"#define EW_ATTRIBUTE_FMA __attribute__((target(\"fma\")))\n"
@@ -96,7 +97,8 @@ static void add_ids(Text *text, const Kernels *kernels)
 		text_add(text, "\t%s,\n", ring_id(&kernels->ring[i]));
 	text_add(text, "\tEW_RINGS_COUNT,\n\tEW_MAX_ACCUMULATORS = %d,\n\tEW_MAX_OUTPUTS = %d\n"
 		"};\n", accumulators, outputs);
-	text_add(text, "\n/* X(id, window, turns, accumulators, outputs, finish): for the ring driver; "
+	text_add(text, "\n/* X(id, window, turns, accumulators, outputs, finish): "
+		"for the ring driver; "
 		"window counts vertices */\n#define EW_RINGS_SHAPES(X)");
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
@@ -168,9 +170,11 @@ static void add_types(Text *text, const Request *request)
 	for (int p = 0; p < precision_count; ++p) {
 		const char *real = precisions[p].real, *suffix = precisions[p].suffix;
 		if (request->precisions & precisions[p].bit)
-			text_add(text, "/* pad = from[0 .. rest-1], then zeros. */\nstatic inline const %s *ew_ring_pad%s("
+			text_add(text, "/* pad = from[0 .. rest-1], then zeros. */\n"
+				"static inline const %s *ew_ring_pad%s("
 				"%s *pad, const %s *from, size_t rest, size_t width)\n{\n"
-				"\tfor (size_t i = 0; i < width; ++i)\n\t\tpad[i] = i < rest ? from[i] : 0;\n"
+				"\tfor (size_t i = 0; i < width; ++i)\n"
+				"\t\tpad[i] = i < rest ? from[i] : 0;\n"
 				"\treturn pad;\n}\n", real, suffix, real, real);
 	}
 	text_add(text, "typedef void ew_ring_finish(const double *sum, double *out);\n\n"
@@ -250,8 +254,9 @@ static void add_rings(Text *text, const Request *request, const Kernels *kernels
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
 		text_add(text, "%s\n  {\"ring\": \"%s\", \"family\": \"%s\", \"scheme\": \"%s\", "
-			"\"window\": %d, \"turns\": %d, \"accumulators\": %d, \"outputs\": %d", i ? "," : "",
-			ring->name, ring->family, ring->scheme, ring->window, ring->turns, ring->accumulators,
+			"\"window\": %d, \"turns\": %d, \"accumulators\": %d, \"outputs\": %d",
+			i ? "," : "", ring->name, ring->family, ring->scheme, ring->window,
+			ring->turns, ring->accumulators,
 			ring->outputs);
 		add_count(text, "portable", &ring->portable);
 		if (request->targets & TARGET_FMA)

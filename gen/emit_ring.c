@@ -59,10 +59,12 @@ static void add_loop(Text *text, const Ring *ring, const Program *program,
 	const int lanes = precision->lanes;
 	text_add(text, "\t\tfor (size_t i = lane; i < count; i += %d) {\n", ring->turns * lanes);
 	for (int turn = 0; turn < ring->turns; ++turn) {
-		int first = turn * ring->accumulators / ring->turns, indent = ring->turns > 1 ? 4 : 3;
+		int first = turn * ring->accumulators / ring->turns;
+		int indent = ring->turns > 1 ? 4 : 3;
 		const Style style = { precision, 0, indent, first, "acc%d", "acc%d = ", NULL };
 		if (ring->turns > 1)         /* a block each: the same names occur in every turn */
-			text_add(text, turn ? "\t\t\tif (count - i > %d) {\n" : "\t\t\t{\n", turn * lanes);
+			text_add(text, turn ? "\t\t\tif (count - i > %d) {\n" : "\t\t\t{\n",
+				turn * lanes);
 		add_loads(text, ring, precision->real, turn * lanes, indent);
 		emit_program(text, program, &style);
 		if (ring->turns > 1)
@@ -121,7 +123,8 @@ static Text *open_file(Files *files, const Request *request, const Target *targe
 static void close_file(Text *text, const Target *target)
 {
 	if (text && target && target->guard)
-		text_add(text, "\n#else\nextern int ew_ring_not_built;    /* a file must not be empty */\n#endif\n");
+		text_add(text, "\n#else\nextern int ew_ring_not_built;    "
+			"/* a file must not be empty */\n#endif\n");
 }
 
 static void emit_target(Files *files, const Request *request, const Kernels *kernels,

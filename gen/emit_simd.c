@@ -73,7 +73,8 @@ static void add_window(const Shape *shape, int ahead, const char *suffix)
 	const Precision *precision = shape->precision;
 	const char *tab = margin(shape->style.indent);
 	if (ahead)
-		text_add(shape->text, "%sconst size_t rest%s = count - i > %d ? count - i - %d : 0;\n",
+		text_add(shape->text,
+			"%sconst size_t rest%s = count - i > %d ? count - i - %d : 0;\n",
 			tab, suffix, ahead, ahead);
 	else
 		text_add(shape->text, "%sconst size_t rest%s = count - i;\n", tab, suffix);
@@ -83,7 +84,7 @@ static void add_window(const Shape *shape, int ahead, const char *suffix)
 			continue;
 		int offset = loads[i].offset + ahead;
 		const char *array = loads[i].array;
-		char *from = offset ? format("%s + i + %d", array, offset) : format("%s + i", array);
+		char *from = format(offset ? "%s + i + %d" : "%s + i", array, offset);
 		text_add(shape->text, "%sconst %s *at_%s%s = rest%s < %d\n", tab, precision->real,
 			loads[i].name, suffix, suffix, shape->width);
 		text_add(shape->text, "%s\t? ew_ring_pad%s(pad%s[%d], %s, rest%s, %d) : %s;\n", tab,
@@ -102,7 +103,8 @@ static void set_turn(Shape *shape, int turn, int indent)
 static void add_plain(Shape *shape, const char *start)
 {
 	const int lanes = shape->precision->lanes, turns = shape->ring->turns;
-	text_add(shape->text, "\t\tfor (size_t i = %s; i < count; i += %d) {\n", start, turns * lanes);
+	text_add(shape->text, "\t\tfor (size_t i = %s; i < count; i += %d) {\n", start,
+		turns * lanes);
 	for (int turn = 0; turn < turns; ++turn) {
 		set_turn(shape, turn, turns > 1 ? 4 : 3);
 		text_add(shape->text, turns > 1 ? "\t\t\t{\n" : "");
@@ -130,8 +132,10 @@ static void add_carried_turn(Shape *shape, int turn)
 		char *argument[] = { format("%ca", axis), format("%cb", axis),
 			format("%d", loads[i].offset) };
 		const char *shift = shape->vector->shift[shape->precision->is_float];
-		char *value = emit_spelling(loads[i].offset ? shift : "$1", &shape->style, argument);
-		emit_statement(text, 5, format("const %s %s = %s;", shape->type, loads[i].name, value));
+		char *value = emit_spelling(loads[i].offset ? shift : "$1", &shape->style,
+			argument);
+		emit_statement(text, 5, format("const %s %s = %s;", shape->type, loads[i].name,
+			value));
 	}
 	emit_program(text, &shape->ring->fused, &shape->style);
 	text_add(text, "\t\t\t\t\txa = xb;\n\t\t\t\t\tya = yb;\n\t\t\t\t}\n");

@@ -31,8 +31,8 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y0f_avx512(
 					const __m512 xb = _mm512_loadu_ps(x + next + 16);
 					const __m512 yb = _mm512_loadu_ps(y + next + 16);
 				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y2 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(yb), _mm512_castps_si512(ya), 2));
+				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+				const __m512 y2 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 2));
 				const __m512 width = _mm512_sub_ps(x1, cx);
 				const __m512 height = _mm512_sub_ps(y2, y0);
 				acc0 = _mm512_fmadd_ps(width, height, acc0);
@@ -43,8 +43,8 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y0f_avx512(
 					const __m512 xb = _mm512_loadu_ps(x + next + 32);
 					const __m512 yb = _mm512_loadu_ps(y + next + 32);
 				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y2 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(yb), _mm512_castps_si512(ya), 2));
+				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+				const __m512 y2 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 2));
 				const __m512 width = _mm512_sub_ps(x1, cx);
 				const __m512 height = _mm512_sub_ps(y2, y0);
 				acc1 = _mm512_fmadd_ps(width, height, acc1);
@@ -110,8 +110,8 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y0f_avx512(
 					const __m512 yb = _mm512_loadu_ps(y + next + 16);
 				const __m512 x0 = xa;
 				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y1 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
+				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+				const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
 				const __m512 t0 = _mm512_mul_ps(x0, y1);
 				const __m512 t1 = _mm512_mul_ps(x1, y0);
 				const __m512 s = _mm512_sub_ps(t0, t1);
@@ -165,8 +165,8 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y1f_avx512(
 					const __m512 yb = _mm512_loadu_ps(y + next + 16);
 				const __m512 x0 = xa;
 				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y1 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
+				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+				const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
 				const __m512 t0 = _mm512_mul_ps(x0, y1);
 				const __m512 t1 = _mm512_mul_ps(x1, y0);
 				const __m512 s = _mm512_sub_ps(t0, t1);
@@ -220,8 +220,8 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y0f_avx512(
 					const __m512 yb = _mm512_loadu_ps(y + next + 16);
 				const __m512 x0 = xa;
 				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y1 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
+				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+				const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
 				const __m512 t0 = _mm512_mul_ps(x0, y1);
 				const __m512 t1 = _mm512_mul_ps(x1, y0);
 				const __m512 s = _mm512_sub_ps(t0, t1);
@@ -315,8 +315,8 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y2f_avx512(
 					const __m512 yb = _mm512_loadu_ps(y + next + 16);
 				const __m512 x0 = xa;
 				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y1 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
+				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+				const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
 				const __m512 t0 = _mm512_mul_ps(x0, y1);
 				const __m512 t1 = _mm512_mul_ps(x1, y0);
 				const __m512 s = _mm512_sub_ps(t0, t1);
@@ -374,8 +374,8 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y0f_avx512(
 					const __m512 yb = _mm512_loadu_ps(y + next + 16);
 				const __m512 x0 = xa;
 				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y1 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
+				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+				const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
 				const __m512 t0 = _mm512_mul_ps(x0, y1);
 				const __m512 t1 = _mm512_mul_ps(x1, y0);
 				const __m512 s = _mm512_sub_ps(t0, t1);
@@ -523,8 +523,8 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y3f_avx512(
 					const __m512 yb = _mm512_loadu_ps(y + next + 16);
 				const __m512 x0 = xa;
 				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y1 = _mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
+				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+				const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
 				const __m512 t0 = _mm512_mul_ps(x0, y1);
 				const __m512 t1 = _mm512_mul_ps(x1, y0);
 				const __m512 s = _mm512_sub_ps(t0, t1);

@@ -31,8 +31,8 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_0_avx512(
 					const __m512d xb = _mm512_loadu_pd(x + next + 8);
 					const __m512d yb = _mm512_loadu_pd(y + next + 8);
 				const __m512d y0 = ya;
-				const __m512d x1 = _mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(xb), _mm512_castpd_si512(xa), 1));
-				const __m512d y2 = _mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(yb), _mm512_castpd_si512(ya), 2));
+				const __m512d x1 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(xb), _mm512_castpd_si512(xa), 1));
+				const __m512d y2 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(yb), _mm512_castpd_si512(ya), 2));
 				const __m512d width = _mm512_sub_pd(x1, cx);
 				const __m512d height = _mm512_sub_pd(y2, y0);
 				acc0 = _mm512_fmadd_pd(width, height, acc0);
@@ -43,8 +43,8 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_0_avx512(
 					const __m512d xb = _mm512_loadu_pd(x + next + 16);
 					const __m512d yb = _mm512_loadu_pd(y + next + 16);
 				const __m512d y0 = ya;
-				const __m512d x1 = _mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(xb), _mm512_castpd_si512(xa), 1));
-				const __m512d y2 = _mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(yb), _mm512_castpd_si512(ya), 2));
+				const __m512d x1 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(xb), _mm512_castpd_si512(xa), 1));
+				const __m512d y2 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(yb), _mm512_castpd_si512(ya), 2));
 				const __m512d width = _mm512_sub_pd(x1, cx);
 				const __m512d height = _mm512_sub_pd(y2, y0);
 				acc1 = _mm512_fmadd_pd(width, height, acc1);
@@ -112,8 +112,8 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_1_avx512(
 					const __m512d yb = _mm512_loadu_pd(y + next + 8);
 				const __m512d x0 = xa;
 				const __m512d y0 = ya;
-				const __m512d x1 = _mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(xb), _mm512_castpd_si512(xa), 1));
-				const __m512d y1 = _mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(yb), _mm512_castpd_si512(ya), 1));
+				const __m512d x1 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(xb), _mm512_castpd_si512(xa), 1));
+				const __m512d y1 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(yb), _mm512_castpd_si512(ya), 1));
 				const __m512d t0 = _mm512_mul_pd(x0, y1);
 				const __m512d t1 = _mm512_mul_pd(x1, y0);
 				const __m512d s = _mm512_sub_pd(t0, t1);

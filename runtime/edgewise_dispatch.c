@@ -49,8 +49,9 @@ static unsigned ew_cpu_xcr0(void)
 
 static unsigned ew_cpu_detect(void)
 {
-	enum { FMA = 1u << 12, OSXSAVE = 1u << 27, AVX = 1u << 28, AVX2 = 1u << 5, AVX512F = 1u << 16 };
-	enum { YMM = 0x6, ZMM = 0xe6 };            /* register state that the system saves, in XCR0 */
+	enum { FMA = 1u << 12, OSXSAVE = 1u << 27, AVX = 1u << 28 };
+	enum { AVX2 = 1u << 5, AVX512F = 1u << 16 };
+	enum { YMM = 0x6, ZMM = 0xe6 };    /* register state that the system saves, in XCR0 */
 	unsigned r[4] = { 0, 0, 0, 0 }, found = EW_PORTABLE, leaves;
 	ew_cpu_id(0, r);
 	leaves = r[0];

@@ -1,8 +1,8 @@
 /* edgewise_rings_template.h - the ring driver, included by edgewise_rings.c once per precision.
  *
  * Parameters: EW_REAL, EW_NAME(stem) the name of a public function with its suffix, EW_LOCAL(stem)
- * that of a local one, EW_RUN the kernel type, EW_SAFE areas between its inverse and it are far from
- * overflow and underflow, EW_WIDTH the number of virtual lanes, EW_IS_FLOAT,
+ * that of a local one, EW_RUN the kernel type, EW_SAFE areas between its inverse and it are far
+ * from overflow and underflow, EW_WIDTH the number of virtual lanes, EW_IS_FLOAT,
  * EW_LIST_PORTABLE, EW_LIST_FMA and EW_LIST_POLYNOMIALS the kernel lists.
  *
  * The items of a ring (its edges, or for the vertex form all vertices but the first) are numbered
@@ -262,8 +262,8 @@ static int EW_LOCAL(centre)(EW_LOCAL(vertices) *v, double d[2], double *area)
 		EW_LOCAL(integrate)(EW_RING_MOMENTS_1, v, moment);
 	}
 	*area = moment[0];
-	if (!(fabs(moment[0]) > 1 / EW_SAFE && fabs(moment[0]) < EW_SAFE && moment[1] - moment[1] == 0
-	      && moment[2] - moment[2] == 0)) {
+	if (!(fabs(moment[0]) > 1 / EW_SAFE && fabs(moment[0]) < EW_SAFE
+	      && moment[1] - moment[1] == 0 && moment[2] - moment[2] == 0)) {
 		EW_REAL scale = EW_LOCAL(unit_scale)(v);
 		if (scale != 0) {
 			v->scale = scale;

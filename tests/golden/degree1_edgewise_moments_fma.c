@@ -75,5 +75,5 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_1_fma(
 }
 
 #else
-typedef int ew_ring_not_built;
+extern int ew_ring_not_built;    /* a file must not be empty */
 #endif
