@@ -10,6 +10,11 @@
 
 #include <string.h>
 
+const Load loads[LOADS] = {
+	{ "x0", "x", 0, 2 }, { "y0", "y", 0, 2 }, { "x1", "x", 1, 2 }, { "y1", "y", 1, 2 },
+	{ "y0", "y", 0, 3 }, { "x1", "x", 1, 3 }, { "y2", "y", 2, 3 },
+};
+
 static const Vector avx2 = {
 	"immintrin.h", "_mm256", { "__m256d", "__m256" }, { "pd", "ps" }, { 4, 8 }, 16, SPELL_X86,
 	"%_loadu_@($1)", "%_storeu_@($1, $2)", { NULL, NULL },

@@ -32,11 +32,7 @@ static void add_signature(Text *text, const Ring *ring, const Target *target,
 /* The window of item i + ahead. */
 static void add_loads(Text *text, const Ring *ring, const char *real, int ahead, int indent)
 {
-	static const struct { const char *name, *array; int offset, window; } loads[] = {
-		{ "x0", "x", 0, 2 }, { "y0", "y", 0, 2 }, { "x1", "x", 1, 2 }, { "y1", "y", 1, 2 },
-		{ "y0", "y", 0, 3 }, { "x1", "x", 1, 3 }, { "y2", "y", 2, 3 },
-	};
-	for (int i = 0; i < LENGTH(loads); ++i) {
+	for (int i = 0; i < LOADS; ++i) {
 		int offset = loads[i].offset + ahead;
 		char *place = offset ? format("i + %d", offset) : format("i");
 		if (loads[i].window == ring->window)

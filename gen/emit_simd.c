@@ -18,12 +18,6 @@ enum { FEW_OPERATIONS = 6,   /* on the FMA pipe, up to which loads are the limit
        MANY_REGISTERS = 32,  /* with fewer, locals that spill are faster than stored */
        SPILLS = 10 };        /* values that may spill before stored is faster; measured */
 
-typedef struct { const char *name, *array; int offset, window; } Load;
-static const Load loads[] = {
-	{ "x0", "x", 0, 2 }, { "y0", "y", 0, 2 }, { "x1", "x", 1, 2 }, { "y1", "y", 1, 2 },
-	{ "y0", "y", 0, 3 }, { "x1", "x", 1, 3 }, { "y2", "y", 2, 3 },
-};
-
 typedef struct {
 	Text *text;
 	const Ring *ring;
@@ -79,7 +73,7 @@ static void add_window(const Shape *shape, int ahead, const char *suffix)
 	else
 		text_add(shape->text, "%sconst size_t rest%s = count - i;\n", tab, suffix);
 	text_add(shape->text, "%s%s pad%s[4][%d];\n", tab, precision->real, suffix, shape->width);
-	for (int i = 0, k = 0; i < LENGTH(loads); ++i) {
+	for (int i = 0, k = 0; i < LOADS; ++i) {
 		if (loads[i].window != shape->ring->window)
 			continue;
 		int offset = loads[i].offset + ahead;
@@ -125,7 +119,7 @@ static void add_carried_turn(Shape *shape, int turn)
 	for (const char *axis = "xy"; *axis; ++axis)
 		text_add(text, "\t\t\t\t\tconst %s %cb = %s;\n", shape->type, *axis,
 			load(shape, format("%c + next + %d", *axis, next)));
-	for (int i = 0; i < LENGTH(loads); ++i) {
+	for (int i = 0; i < LOADS; ++i) {
 		if (loads[i].window != shape->ring->window)
 			continue;
 		char axis = *loads[i].array;

@@ -331,6 +331,11 @@ typedef struct { const char *real, *suffix, *unit; int is_float, lanes; unsigned
 extern const Precision precisions[];
 extern const int precision_count;
 
+/* What an item of a ring reads: name = array[i + offset], for programs with this window. */
+typedef struct { const char *name, *array; int offset, window; } Load;
+enum { LOADS = 7 };
+extern const Load loads[LOADS];
+
 typedef struct {                             /* how a program is written */
 	const Precision *precision;
 	int nested, indent;
