@@ -243,7 +243,6 @@ Dag *moments_matrix(const Integral *want, int degree);
 
 typedef struct { int fma, add, mul; } Count; /* FMA pipe (mul included), adder; mul alone */
 
-int  dag_cost(const Dag *dag);
 Dag *scheme_edge(const Integral *want);      /* one edge by the matrix, ends interchangeable */
 /* Accumulators of a ring: the cheapest that applies. */
 Dag *scheme_ring(const Integral *want, int moments);

@@ -40,7 +40,7 @@ static Count dag_count(const Dag *dag)
 	return count;
 }
 
-int dag_cost(const Dag *dag)
+static int dag_cost(const Dag *dag)
 {
 	Count count = dag_count(dag);
 	return FMA_WEIGHT * count.fma + ADD_WEIGHT * count.add;

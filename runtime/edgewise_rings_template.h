@@ -3,10 +3,11 @@
  * Parameters: EW_REAL, EW_NAME(stem) the name of a public function with its suffix, EW_LOCAL(stem)
  * that of a local one, EW_RUN the kernel type, EW_SAFE areas between its inverse and it are far
  * from overflow and underflow, EW_WIDTH the number of virtual lanes, EW_IS_FLOAT,
- * EW_LIST_PORTABLE, EW_LIST_FMA and EW_LIST_POLYNOMIALS the kernel lists.
+ * EW_LIST_PORTABLE and so on for each target, and EW_LIST_POLYNOMIALS, the kernel lists.
  *
  * The items of a ring (its edges, or for the vertex form all vertices but the first) are numbered
- * from 0; item i goes to lane i mod EW_WIDTH. Kernels run on the user's arrays as long as an item
+ * from 0; item i goes to lane i mod EW_WIDTH, and where a ring has two turns, to accumulator set
+ * i / EW_WIDTH mod 2, so a kernel always starts at a multiple of both. Kernels run on the user's arrays as long as an item
  * does not reach past the last vertex; the rest, and everything if the vertices must be moved or
  * gathered, goes through a small buffer. Where the buffer begins does not change the result. Float
  * lanes are flushed to double after every EW_BLOCK items. At the end lanes are added by halving:
