@@ -17,7 +17,7 @@ const Load loads[LOADS] = {
 
 static const Vector avx2 = {
 	"immintrin.h", "_mm256", { "__m256d", "__m256" }, { "pd", "ps" }, { 4, 8 }, 16, SPELL_X86,
-	"%_loadu_@($1)", "%_storeu_@($1, $2)", { NULL, NULL },
+	"%_loadu_@($1)", "%_storeu_@($1, $2)", { NULL, NULL }, { NULL, NULL }, NULL,
 };
 static const Vector avx512 = {
 	"immintrin.h", "_mm512", { "__m512d", "__m512" }, { "pd", "ps" }, { 8, 16 }, 32, SPELL_X86,
@@ -27,11 +27,12 @@ static const Vector avx512 = {
 	  "_mm512_castpd_si512($1), $3))",
 	  "_mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512($2), "
 	  "_mm512_castps_si512($1), $3))" },
+	{ "__mmask8", "__mmask16" }, "%_maskz_loadu_@($2, $1)",
 };
 static const Vector neon = {
 	"arm_neon.h", "", { "float64x2_t", "float32x4_t" }, { "f64", "f32" }, { 2, 4 }, 32,
 	SPELL_NEON,
-	"vld1q_@($1)", "vst1q_@($1, $2)", { NULL, NULL },
+	"vld1q_@($1)", "vst1q_@($1, $2)", { NULL, NULL }, { NULL, NULL }, NULL,
 };
 
 const Target targets[] = {
@@ -119,9 +120,9 @@ static int break_at(const char *statement, int room)
 void emit_statement(Text *text, int indent, const char *statement)
 {
 	int room = WIDTH - TAB * indent, cut;
-	text_add(text, "%.*s", indent, "\t\t\t\t");
+	text_add(text, "%.*s", indent, "\t\t\t\t\t");
 	while ((int)strlen(statement) > room && (cut = break_at(statement, room)) > 0) {
-		text_add(text, "%.*s\n%.*s", cut, statement, indent + 1, "\t\t\t\t\t");
+		text_add(text, "%.*s\n%.*s", cut, statement, indent + 1, "\t\t\t\t\t\t");
 		statement += cut + 1;
 		room = WIDTH - TAB * (indent + 1);
 	}
@@ -185,6 +186,12 @@ static void name_values(Printer *printer)
 			name = format("t%d", temporaries++);
 		printer->name[ref] = name;
 	}
+}
+
+char *emit_place(const Load *load, int turn)
+{
+	static const char *const ahead[] = { "", " + reach", " + 2 * reach" };
+	return format("i%s%s", turn ? " + step" : "", ahead[load->ahead]);
 }
 
 char *emit_spelling(const char *pattern, const Style *style, char *const *argument)
@@ -326,7 +333,7 @@ static void add_chain(Text *text, const Printer *printer, const unsigned char *d
 }
 
 /* The values of the second item carry the suffix "_2"; each accumulator takes both in order. */
-void emit_pair(Text *text, const Program *program, const Style *style,
+void emit_stored(Text *text, const Program *program, const Style *style, int items,
 	void (*open)(const void *to, int accumulator),
 	void (*close)(const void *to, int accumulator), const void *to)
 {
@@ -343,7 +350,7 @@ void emit_pair(Text *text, const Program *program, const Style *style,
 		int k = output_of(dag, ref);
 		if (k >= 0)
 			open(to, k);
-		for (int copy = 0; copy < 2; ++copy) {
+		for (int copy = 0; copy < items; ++copy) {
 			if (k >= 0)
 				add_chain(text, &printer[copy], depends, ref);
 			else if (!depends[ref])

@@ -33,6 +33,11 @@ static void add_environment(Text *text, const Request *request)
 		"#elif defined(__GNUC__) && !defined(__TINYC__)\n"
 		"#pragma GCC optimize (\"fp-contract=off\")\n"
 		"#elif defined(_MSC_VER)\n#pragma fp_contract(off)\n#endif\n\n");
+	text_add(text, "/* Accumulators that stay in memory: "
+		"the compiler must not know that it can keep them in registers. */\n"
+		"#if defined(__GNUC__) || defined(__clang__)\n"
+		"#define EW_HIDE(pointer) __asm__(\"\" : \"+r\"(pointer))\n"
+		"#else\n#define EW_HIDE(pointer) (void)0\n#endif\n\n");
 	text_add(text, "/* Which targets can this compiler build? "
 		"The CPU is asked at run time. */\n"
 		"#if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__)) "
@@ -157,15 +162,20 @@ static void add_precision(Text *text, const Request *request, const Kernels *ker
 static void add_types(Text *text, const Request *request)
 {
 	text_add(text, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n"
-		"/* `count` items; cx is the abscissa of the local origin (vertex form only); "
-		"added to\n * sum[accumulator * lanes + lane]. "
-		"Results: finish(sums over all lanes, out). */\n");
+		"/* Items 0 .. count-1; item i reads vertices i, i + reach, ... (the window), and "
+		"lane l < step takes items l,\n * l + step, ... in order; added to "
+		"sum[accumulator * L + lane], L = %d double, %d float.\n"
+		" * One ring: reach 1, step L. As many rings as a register has lanes, side by "
+		"side: reach and step that many.\n * With reach 1 and step 1 "
+		"only lane 0 has a meaning. origin[lane]: abscissas of the local origins\n"
+		" * (vertex form only). Results: finish(sums over all lanes, out). */\n",
+		precisions[0].lanes, precisions[1].lanes);
 	for (int p = 0; p < precision_count; ++p) {
 		const char *real = precisions[p].real;
 		if (request->precisions & precisions[p].bit)
 			text_add(text, "typedef void ew_ring_run%s(const %s *x, const %s *y, "
-				"%s cx, size_t count, %s *sum);\n", precisions[p].suffix,
-				real, real, real, real);
+				"const %s *origin,\n\tsize_t reach, size_t step, size_t count, %s *sum);\n",
+				precisions[p].suffix, real, real, real, real);
 	}
 	for (int p = 0; p < precision_count; ++p) {
 		const char *real = precisions[p].real, *suffix = precisions[p].suffix;

@@ -25,19 +25,17 @@ static void add_signature(Text *text, const Ring *ring, const Target *target,
 {
 	const char *real = precision->real;
 	text_add(text, "void ew_ring_%s%s_%s(\n\t", ring->name, precision->suffix, target->name);
-	text_add(text, "const %s *x, const %s *y, %s %s, size_t count, %s *sum)", real, real, real,
-		target->vector ? "origin" : "cx", real);
+	text_add(text, "const %s *x, const %s *y, const %s *origin,\n\tsize_t reach, size_t step, "
+		"size_t count, %s *sum)", real, real, real, real);
 }
 
-/* The window of item i + ahead. */
-static void add_loads(Text *text, const Ring *ring, const char *real, int ahead, int indent)
+/* The window of item i + turn * step. */
+static void add_loads(Text *text, const Ring *ring, const char *real, int turn, int indent)
 {
 	for (int i = 0; i < LOADS; ++i) {
-		int offset = loads[i].offset + ahead;
-		char *place = offset ? format("i + %d", offset) : format("i");
 		if (loads[i].window == ring->window)
 			emit_statement(text, indent, format("const %s %s = %s[%s];", real,
-				loads[i].name, loads[i].array, place));
+				loads[i].name, loads[i].array, emit_place(&loads[i], turn)));
 	}
 }
 
@@ -52,16 +50,15 @@ static char *lane_sum(int accumulator, const Precision *precision)
 static void add_loop(Text *text, const Ring *ring, const Program *program,
 	const Precision *precision)
 {
-	const int lanes = precision->lanes;
-	text_add(text, "\t\tfor (size_t i = lane; i < count; i += %d) {\n", ring->turns * lanes);
+	text_add(text, "\t\tfor (size_t i = lane; i < count; i += %sstep) {\n",
+		ring->turns > 1 ? "2 * " : "");
 	for (int turn = 0; turn < ring->turns; ++turn) {
 		int first = turn * ring->accumulators / ring->turns;
 		int indent = ring->turns > 1 ? 4 : 3;
 		const Style style = { precision, 0, indent, first, "acc%d", "acc%d = ", NULL };
 		if (ring->turns > 1)         /* a block each: the same names occur in every turn */
-			text_add(text, turn ? "\t\t\tif (count - i > %d) {\n" : "\t\t\t{\n",
-				turn * lanes);
-		add_loads(text, ring, precision->real, turn * lanes, indent);
+			text_add(text, turn ? "\t\t\tif (count - i > step) {\n" : "\t\t\t{\n");
+		add_loads(text, ring, precision->real, turn, indent);
 		emit_program(text, program, &style);
 		if (ring->turns > 1)
 			text_add(text, "\t\t\t}\n");
@@ -82,14 +79,15 @@ static void add_kernel(Text *text, const Ring *ring, const Target *target,
 	add_signature(text, ring, target, precision);
 	text_add(text, "\n{\n");
 	if (ring->window == 2)
-		text_add(text, "\t(void)%s;\n", target->vector ? "origin" : "cx");
+		text_add(text, "\t(void)origin;\n");
 	if (target->vector) {
 		emit_vector_body(text, ring, target, precision);
 		text_add(text, "}\n");
 		return;
 	}
-	text_add(text, "\tfor (size_t lane = 0; lane < %d && lane < count; ++lane) {\n",
-		precision->lanes);
+	text_add(text, "\tfor (size_t lane = 0; lane < step && lane < count; ++lane) {\n");
+	if (ring->window == 3)
+		text_add(text, "\t\tconst %s cx = origin[lane];\n", precision->real);
 	for (int k = 0; k < ring->accumulators; ++k)
 		text_add(text, "\t\t%s acc%d = %s;\n", precision->real, k, lane_sum(k, precision));
 	add_loop(text, ring, program, precision);

@@ -10,13 +10,13 @@
  *   locals    accumulators are local variables
  *   stored    accumulators stay in the nearest cache and take two vectors per load and store
  *
- * The last vector may be partial: its items are copied to buffers that hold 0 behind them, and an
- * item of zeros adds exactly 0. */
+ * The last vectors may be partial: their loads are masked, or go through buffers that hold 0 behind
+ * the last item, and an item of zeros adds exactly 0. */
 #include "gen.h"
 
 enum { FEW_OPERATIONS = 6,   /* on the FMA pipe, up to which loads are the limit (degree 1) */
        MANY_REGISTERS = 32,  /* with fewer, locals that spill are faster than stored */
-       SPILLS = 10 };        /* values that may spill before stored is faster; measured */
+       MANY_OPERATIONS = 48 };   /* from here on stored is faster than locals that spill */
 
 typedef struct {
 	Text *text;
@@ -61,30 +61,48 @@ static void add_store(const void *to, int accumulator)
 	text_add(shape->text, "%s%s;\n", margin(shape->style.indent), store);
 }
 
-/* The window of the vector `ahead` items behind item i, from the arrays or from padded copies. */
-static void add_window(const Shape *shape, int ahead, const char *suffix)
+/* How many items are left for the vector `turn` steps behind item i, and the mask that says so. */
+static void add_rest(const Shape *shape, int turn, const char *suffix)
+{
+	const char *mask = shape->vector->mask[shape->precision->is_float];
+	const char *tab = margin(shape->style.indent);
+	text_add(shape->text, "%sconst size_t rest%s = %s;\n", tab, suffix,
+		turn ? "count - i > step ? count - i - step : 0" : "count - i");
+	if (mask)
+		text_add(shape->text, "%sconst %s mask%s = (%s)(rest%s < %d ? (1u << rest%s) - 1 : "
+			"0x%xu);\n", tab, mask, suffix, mask, suffix, shape->width, suffix,
+			(1u << shape->width) - 1);
+	else
+		text_add(shape->text, "%s%s pad%s[4][%d];\n%sint at%s = 0;\n", tab,
+			shape->precision->real, suffix, shape->width, tab, suffix);
+}
+
+static char *load_some(const Shape *shape, const char *name, char *from, const char *suffix)
 {
 	const Precision *precision = shape->precision;
+	if (shape->vector->load_masked) {
+		char *argument[] = { from, format("mask%s", suffix) };
+		return emit_spelling(shape->vector->load_masked, &shape->style, argument);
+	}
+	text_add(shape->text, "%sconst %s *at_%s = ew_ring_pad%s(pad%s[at%s++], %s, rest%s, %d);\n",
+		margin(shape->style.indent), precision->real, name, precision->suffix, suffix,
+		suffix, from, suffix, shape->width);
+	return load(shape, format("at_%s", name));
+}
+
+/* The window of the vector `turn` steps behind item i; `whole`: no item of it is missing. */
+static void add_window(const Shape *shape, int turn, const char *suffix, int whole)
+{
 	const char *tab = margin(shape->style.indent);
-	if (ahead)
-		text_add(shape->text,
-			"%sconst size_t rest%s = count - i > %d ? count - i - %d : 0;\n",
-			tab, suffix, ahead, ahead);
-	else
-		text_add(shape->text, "%sconst size_t rest%s = count - i;\n", tab, suffix);
-	text_add(shape->text, "%s%s pad%s[4][%d];\n", tab, precision->real, suffix, shape->width);
-	for (int i = 0, k = 0; i < LOADS; ++i) {
+	if (!whole)
+		add_rest(shape, turn, suffix);
+	for (int i = 0; i < LOADS; ++i) {
 		if (loads[i].window != shape->ring->window)
 			continue;
-		int offset = loads[i].offset + ahead;
-		const char *array = loads[i].array;
-		char *from = format(offset ? "%s + i + %d" : "%s + i", array, offset);
-		text_add(shape->text, "%sconst %s *at_%s%s = rest%s < %d\n", tab, precision->real,
-			loads[i].name, suffix, suffix, shape->width);
-		text_add(shape->text, "%s\t? ew_ring_pad%s(pad%s[%d], %s, rest%s, %d) : %s;\n", tab,
-			precision->suffix, suffix, k++, from, suffix, shape->width, from);
-		text_add(shape->text, "%sconst %s %s%s = %s;\n", tab, shape->type, loads[i].name,
-			suffix, load(shape, format("at_%s%s", loads[i].name, suffix)));
+		char *name = format("%s%s", loads[i].name, suffix);
+		char *from = format("%s + %s", loads[i].array, emit_place(&loads[i], turn));
+		char *value = whole ? load(shape, from) : load_some(shape, name, from, suffix);
+		text_add(shape->text, "%sconst %s %s = %s;\n", tab, shape->type, name, value);
 	}
 }
 
@@ -94,15 +112,17 @@ static void set_turn(Shape *shape, int turn, int indent)
 	shape->style.indent = indent;
 }
 
-static void add_plain(Shape *shape, const char *start)
+/* From item i on: as long as vectors are whole, or to the end. */
+static void add_items(Shape *shape, int whole)
 {
-	const int lanes = shape->precision->lanes, turns = shape->ring->turns;
-	text_add(shape->text, "\t\tfor (size_t i = %s; i < count; i += %d) {\n", start,
-		turns * lanes);
+	const int turns = shape->ring->turns;
+	text_add(shape->text, "\t\tfor (; %s; i += %sstep) {\n", !whole ? "i < count"
+		: format(turns > 1 ? "i + step + %d < count" : "i + %d < count", shape->width - 1),
+		turns > 1 ? "2 * " : "");
 	for (int turn = 0; turn < turns; ++turn) {
 		set_turn(shape, turn, turns > 1 ? 4 : 3);
 		text_add(shape->text, turns > 1 ? "\t\t\t{\n" : "");
-		add_window(shape, turn * lanes, "");
+		add_window(shape, turn, "", whole);
 		emit_program(shape->text, &shape->ring->fused, &shape->style);
 		text_add(shape->text, turns > 1 ? "\t\t\t}\n" : "");
 	}
@@ -118,15 +138,15 @@ static void add_carried_turn(Shape *shape, int turn)
 	text_add(text, "\t\t\t\t{\n");
 	for (const char *axis = "xy"; *axis; ++axis)
 		text_add(text, "\t\t\t\t\tconst %s %cb = %s;\n", shape->type, *axis,
-			load(shape, format("%c + next + %d", *axis, next)));
+			load(shape, format("%c + i + %d", *axis, next)));
 	for (int i = 0; i < LOADS; ++i) {
 		if (loads[i].window != shape->ring->window)
 			continue;
 		char axis = *loads[i].array;
 		char *argument[] = { format("%ca", axis), format("%cb", axis),
-			format("%d", loads[i].offset) };
+			format("%d", loads[i].ahead) };
 		const char *shift = shape->vector->shift[shape->precision->is_float];
-		char *value = emit_spelling(loads[i].offset ? shift : "$1", &shape->style,
+		char *value = emit_spelling(loads[i].ahead ? shift : "$1", &shape->style,
 			argument);
 		emit_statement(text, 5, format("const %s %s = %s;", shape->type, loads[i].name,
 			value));
@@ -135,17 +155,17 @@ static void add_carried_turn(Shape *shape, int turn)
 	text_add(text, "\t\t\t\t\txa = xb;\n\t\t\t\t\tya = yb;\n\t\t\t\t}\n");
 }
 
-/* While the next vector can be loaded whole; the rest is for the plain loop, from item `next`. */
+/* While the next vector can be loaded whole; the rest is for the loops behind it. */
 static void add_carried(Shape *shape)
 {
 	const int turns = shape->ring->turns, span = (turns + 1) * shape->width;
 	Text *text = shape->text;
-	char *whole = format("next + %d < count + %d", span, shape->ring->window);
-	text_add(text, "\t\tsize_t next = 0;\n\t\tif (%s) {\n", whole);
+	char *whole = format("i + %d < count + %d", span, shape->ring->window);
+	text_add(text, "\t\tif (reach == 1 && step == %d && %s) {\n", shape->width, whole);
 	for (const char *axis = "xy"; *axis; ++axis)
 		text_add(text, "\t\t\t%s %ca = %s;\n", shape->type, *axis,
 			load(shape, format("%c", *axis)));
-	text_add(text, "\t\t\tfor (; %s; next += %d) {\n", whole, turns * shape->width);
+	text_add(text, "\t\t\tfor (; %s; i += %d) {\n", whole, turns * shape->width);
 	for (int turn = 0; turn < turns; ++turn)
 		add_carried_turn(shape, turn);
 	text_add(text, "\t\t\t}\n\t\t}\n");
@@ -155,23 +175,37 @@ static void add_locals(Shape *shape, int carried)
 {
 	for (int k = 0; k < shape->ring->accumulators; ++k)
 		add_load(shape, k);
+	text_add(shape->text, "\t\tsize_t i = pass;\n");
 	if (carried)
 		add_carried(shape);
-	add_plain(shape, carried ? "next" : "pass");
+	add_items(shape, 1);
+	add_items(shape, 0);
 	set_turn(shape, 0, 2);
 	for (int k = 0; k < shape->ring->accumulators; ++k)
 		add_store(shape, k);
 }
 
+/* Compilers that see through the address of an accumulator would move it back to a register, and
+ * spill it. */
+static void add_stored_items(Shape *shape, int items)
+{
+	text_add(shape->text, "\t\tfor (; i%s < count; i += %sstep) {\n",
+		items > 1 ? format(" + step + %d", shape->width - 1) : "", items > 1 ? "2 * " : "");
+	text_add(shape->text, "\t\t\tEW_HIDE(sum);\n");
+	set_turn(shape, 0, 3);
+	add_window(shape, 0, "", items > 1);
+	if (items > 1)
+		add_window(shape, 1, "_2", 1);
+	emit_stored(shape->text, &shape->ring->fused, &shape->style, items, add_load, add_store,
+		shape);
+	text_add(shape->text, "\t\t}\n");
+}
+
 static void add_stored(Shape *shape)
 {
-	const int lanes = shape->precision->lanes;
-	text_add(shape->text, "\t\tfor (size_t i = pass; i < count; i += %d) {\n", 2 * lanes);
-	set_turn(shape, 0, 3);
-	add_window(shape, 0, "");
-	add_window(shape, lanes, "_2");
-	emit_pair(shape->text, &shape->ring->fused, &shape->style, add_load, add_store, shape);
-	text_add(shape->text, "\t\t}\n");
+	text_add(shape->text, "\t\tsize_t i = pass;\n");
+	add_stored_items(shape, 2);
+	add_stored_items(shape, 1);
 }
 
 void emit_vector_body(Text *text, const Ring *ring, const Target *target,
@@ -184,14 +218,12 @@ void emit_vector_body(Text *text, const Ring *ring, const Target *target,
 	int carried = vector->shift[0] && width == precision->lanes
 		&& ring->fused.cost.fma <= FEW_OPERATIONS;
 	int stored = vector->registers >= MANY_REGISTERS && ring->turns == 1
-		&& ring->accumulators + ring->fused.live > vector->registers + SPILLS;
-	if (ring->window == 3) {
-		char *value = format("origin"), *set;
-		set = emit_spelling(op_spelling(OP_CONST, vector->spelling), &shape.style, &value);
-		text_add(text, "\tconst %s cx = %s;\n", shape.type, set);
-	}
-	text_add(text, "\tfor (size_t pass = 0; pass < %d && pass < count; pass += %d) {\n",
-		precision->lanes, width);
+		&& ring->fused.cost.fma >= MANY_OPERATIONS
+		&& ring->accumulators + ring->fused.live > vector->registers;
+	text_add(text, "\tfor (size_t pass = 0; pass < step && pass < count; pass += %d) {\n", width);
+	if (ring->window == 3)
+		text_add(text, "\t\tconst %s cx = %s;\n", shape.type,
+			load(&shape, format("origin + pass")));
 	if (stored)
 		add_stored(&shape);
 	else

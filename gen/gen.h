@@ -311,6 +311,7 @@ typedef struct {                             /* a vector instruction set; [0] do
 	int spelling;                        /* column of ops.def */
 	const char *load, *store;            /* $1 pointer, $2 value */
 	const char *shift[2];                /* $1 this, $2 next vector, $3 by how many; or NULL */
+	const char *mask[2], *load_masked;   /* type of a mask; $1 pointer, $2 mask; or NULL */
 } Vector;
 
 typedef struct {                             /* one row per target */
@@ -330,8 +331,8 @@ typedef struct { const char *real, *suffix, *unit; int is_float, lanes; unsigned
 extern const Precision precisions[];
 extern const int precision_count;
 
-/* What an item of a ring reads: name = array[i + offset], for programs with this window. */
-typedef struct { const char *name, *array; int offset, window; } Load;
+/* What an item of a ring reads: name = array[i + ahead * reach], for programs with this window. */
+typedef struct { const char *name, *array; int ahead, window; } Load;
 enum { LOADS = 7 };
 extern const Load loads[LOADS];
 
@@ -349,10 +350,11 @@ void emit_banner(Text *text, const char *name, const char *purpose, const Reques
 void emit_wrapped(Text *text, const char *start, const char *margin, const char *words);
 /* Broken at operators if it is too wide. */
 void emit_statement(Text *text, int indent, const char *statement);
+char *emit_place(const Load *load, int turn);  /* index of what item i + turn * step reads */
 char *emit_spelling(const char *pattern, const Style *style, char *const *argument);
 void emit_program(Text *text, const Program *program, const Style *style);
-/* Two items at a time; open and close surround the turn of each accumulator. */
-void emit_pair(Text *text, const Program *program, const Style *style,
+/* One or two items at a time; open and close surround the turn of each accumulator. */
+void emit_stored(Text *text, const Program *program, const Style *style, int items,
 	void (*open)(const void *to, int accumulator),
 	void (*close)(const void *to, int accumulator), const void *to);
 
