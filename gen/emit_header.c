@@ -74,6 +74,22 @@ static const Entry rings[] = {
 	"every term positive, about the centroid or about the first vertex, whichever is larger.",
 	"int ew_central_moments@(int degree, const REAL *x, const REAL *y, size_t n, REAL c[2], "
 	"REAL *out)" },
+	{ has_area,
+	"Areas of many rings; ring i has the vertices offsets[i] .. offsets[i+1] - 1, as in GeoArrow "
+	"(rings + 1 offsets). out[i] is what ew_area gives, bit for bit. Negative or decreasing "
+	"offsets: EW_BAD_OFFSETS, out untouched.",
+	"int ew_area_rings@(const REAL *x, const REAL *y, const int32_t *offsets, size_t rings, "
+	"REAL *out)" },
+	{ has_centroid,
+	"Centroids of many rings, as ew_centroid gives them, bit for bit; NaN for a ring whose area "
+	"is 0. Offsets as for ew_area_rings.",
+	"int ew_centroid_rings@(const REAL *x, const REAL *y, const int32_t *offsets, size_t rings, "
+	"REAL *cx, REAL *cy)" },
+	{ has_area,
+	"Moments of many rings, as ew_moments gives them, bit for bit: out[i * EW_MOMENTS(degree) + "
+	"EW_INDEX(m, n)]. Offsets as for ew_area_rings; a bad degree leaves out untouched too.",
+	"int ew_moments_rings@(int degree, const REAL *x, const REAL *y, const int32_t *offsets, "
+	"size_t rings, REAL *out)" },
 };
 
 static const Entry dispatch[] = {
@@ -202,7 +218,8 @@ void emit_header(Files *files, const Request *request, const Kernels *kernels)
 	const char *name = "edgewise.h";
 	Text *text = file_new(files, name);
 	emit_banner(text, name, "exact integrals over polygons, as sums over edges", request);
-	text_add(text, "#ifndef EDGEWISE_H\n#define EDGEWISE_H\n\n#include <stddef.h>\n");
+	text_add(text, "#ifndef EDGEWISE_H\n#define EDGEWISE_H\n\n#include <stddef.h>\n"
+		"#include <stdint.h>\n");
 	add_comment(text, PREAMBLE);
 	add_macros(text, request);
 	text_add(text, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n");

@@ -159,6 +159,35 @@ static void add_precision(Text *text, const Request *request, const Kernels *ker
 	}
 }
 
+/* The targets that the compiler builds, and what finishes the moments of rings side by side. */
+static void add_targets(Text *text, const Request *request, const Kernels *kernels)
+{
+	Text all = { 0 };
+	for (int t = 0; t < target_count; ++t) {
+		const Target *target = &targets[t];
+		const char *name = upper(target->name);
+		if (!(request->targets & target->bit))
+			continue;
+		text_add(text, "\n#%s %s\n#define EW_TARGET_%s(X) X(%s, %s, %d)\n#else\n"
+			"#define EW_TARGET_%s(X)\n#endif\n", "if",
+			target->guard ? target->guard : "1", name, name, target->name,
+			target->vector ? target->vector->width[0] : 1, name);
+		text_add(&all, " EW_TARGET_%s(X)", name);
+		text_add(text, "/* X(id, finish): %s */\n#define EW_FINISHES_%s(X)", target->name,
+			name);
+		for (int i = 0; i < kernels->rings; ++i)
+			if (emit_finishes_columns(&kernels->ring[i]))
+				text_add(text, " \\\n\tX(%s, ew_ring_%s_finish%s%s)",
+					ring_id(&kernels->ring[i]), kernels->ring[i].name,
+					target->vector ? "_" : "",
+					target->vector ? target->name : "");
+		text_add(text, "\n");
+	}
+	text_add(text, "\n/* X(TARGET, target, doubles): the targets that this compiler builds, and doubles in a "
+		"register */\n"
+		"#define EW_TARGETS(X)%s\n", text_take(&all));
+}
+
 static void add_types(Text *text, const Request *request)
 {
 	text_add(text, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n"
@@ -187,7 +216,9 @@ static void add_types(Text *text, const Request *request)
 				"\t\tpad[i] = i < rest ? from[i] : 0;\n"
 				"\treturn pad;\n}\n", real, suffix, real, real);
 	}
-	text_add(text, "typedef void ew_ring_finish(const double *sum, double *out);\n\n"
+	text_add(text, "/* From sum[accumulator * stride] to out[output * stride]; those of a "
+		"vector target take as many\n * neighbours as a register holds. */\n"
+		"typedef void ew_ring_finish(const double *sum, double *out, size_t stride);\n\n"
 		"#define EW_DECLARE(id, window, turns, accumulators, outputs, finish) "
 		"ew_ring_finish finish;\n"
 		"EW_RINGS_SHAPES(EW_DECLARE)\n#undef EW_DECLARE\n");
@@ -203,6 +234,13 @@ static void add_types(Text *text, const Request *request)
 				"ew_ring_run%s kernel;\nEW_RINGS_%s_%s(EW_DECLARE)\n"
 				"#undef EW_DECLARE\n%s", precisions[p].suffix, upper(target->name),
 				upper(precisions[p].real), target->guard ? "#endif\n" : "");
+		}
+	for (int t = 0; t < target_count; ++t)
+		if (request->targets & targets[t].bit && targets[t].vector) {
+			text_add(text, "#if %s\n#define EW_DECLARE(id, finish) "
+				"ew_ring_finish finish;\nEW_FINISHES_%s(EW_DECLARE)\n"
+				"#undef EW_DECLARE\n#endif\n", targets[t].guard,
+				upper(targets[t].name));
 		}
 	text_add(text, "\n#ifdef __cplusplus\n}\n#endif\n");
 }
@@ -221,6 +259,7 @@ void emit_list(Files *files, const Request *request, const Kernels *kernels)
 	for (int p = 0; p < precision_count; ++p)
 		if (request->precisions & precisions[p].bit)
 			add_precision(text, request, kernels, &precisions[p]);
+	add_targets(text, request, kernels);
 	add_types(text, request);
 	text_add(text, "\n#endif\n");
 }

@@ -9,6 +9,13 @@
  * for the vertex form, vertex i+1 between its neighbours. */
 #include "gen.h"
 
+#include <string.h>
+
+static int is_moments(const Ring *ring)
+{
+	return strcmp(ring->family, "moments") == 0;
+}
+
 static char *describe(const Ring *ring)
 {
 	if (ring->n == 0 && ring->outputs > 1)
@@ -99,7 +106,7 @@ static void add_kernel(Text *text, const Ring *ring, const Target *target,
 /* All moments of a degree and single integrands go to files of their own. */
 static const char *group_of(const Ring *ring)
 {
-	return ring->family[0] == 'm' && ring->family[2] == 'm' ? "moments" : "integrands";
+	return is_moments(ring) ? "moments" : "integrands";
 }
 
 static Text *open_file(Files *files, const Request *request, const Target *target,
@@ -146,18 +153,43 @@ static void emit_target(Files *files, const Request *request, const Kernels *ker
 	close_file(text, target);
 }
 
+int emit_finishes_columns(const Ring *ring)
+{
+	return is_moments(ring);
+}
+
+/* The same for rings side by side, by vectors of double. */
+static void emit_vector_finishes(Files *files, const Request *request, const Kernels *kernels,
+	const Target *target)
+{
+	Text *text = open_file(files, request, target, format("edgewise_finish_%s.c", target->name),
+		"from accumulator sums to results, for rings side by side");
+	for (int i = 0; i < kernels->rings; ++i) {
+		const Ring *ring = &kernels->ring[i];
+		if (!emit_finishes_columns(ring))
+			continue;
+		text_add(text, "\n/* %s */\n%s void ew_ring_%s_finish_%s(\n\t", describe(ring),
+			target->attribute, ring->name, target->name);
+		text_add(text, "const double *sum, double *out, size_t stride)\n{\n");
+		emit_vector_finish(text, ring, target);
+		text_add(text, "}\n");
+	}
+	close_file(text, target);
+}
+
 /* From the sums of the accumulators over all items to the results;
  * the same for every target and precision. */
 static void emit_finish(Files *files, const Request *request, const Kernels *kernels)
 {
-	const Style style = { &precisions[0], 0, 1, 0, "sum[%d]", "out[%d] = ", NULL };
+	const Style style = { &precisions[0], 0, 1, 0, "sum[%d * stride]", "out[%d * stride] = ",
+		NULL };
 	Text *text = open_file(files, request, NULL, "edgewise_finish.c",
 		"from accumulator sums to results");
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
 		text_add(text, "\n/* %s */\n", describe(ring));
-		text_add(text, "void ew_ring_%s_finish(const double *sum, double *out)\n{\n",
-			ring->name);
+		text_add(text, "void ew_ring_%s_finish(const double *sum, double *out, "
+			"size_t stride)\n{\n", ring->name);
 		emit_program(text, &ring->finish, &style);
 		text_add(text, "}\n");
 	}
@@ -171,4 +203,7 @@ void emit_rings(Files *files, const Request *request, const Kernels *kernels)
 			    && request->precisions & precisions[p].bit)
 				emit_target(files, request, kernels, &targets[t], &precisions[p]);
 	emit_finish(files, request, kernels);
+	for (int t = 0; t < target_count; ++t)
+		if (targets[t].vector && request->targets & targets[t].bit)
+			emit_vector_finishes(files, request, kernels, &targets[t]);
 }

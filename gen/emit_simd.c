@@ -208,6 +208,25 @@ static void add_stored(Shape *shape)
 	add_stored_items(shape, 1);
 }
 
+/* From sums to results, a register of neighbouring rings at a time. */
+void emit_vector_finish(Text *text, const Ring *ring, const Target *target)
+{
+	const Vector *vector = target->vector;
+	const Style style = { &precisions[0], 0, 1, 0, "sum%d", "out%d = ", vector };
+	for (int k = 0; k < ring->accumulators; ++k) {
+		char *from = format("sum + %d * stride", k);
+		text_add(text, "\tconst %s sum%d = %s;\n", vector->type[0], k,
+			emit_spelling(vector->load, &style, &from));
+	}
+	for (int j = 0; j < ring->outputs; ++j)
+		text_add(text, "\t%s out%d;\n", vector->type[0], j);
+	emit_program(text, &ring->finish, &style);
+	for (int j = 0; j < ring->outputs; ++j) {
+		char *argument[] = { format("out + %d * stride", j), format("out%d", j) };
+		text_add(text, "\t%s;\n", emit_spelling(vector->store, &style, argument));
+	}
+}
+
 void emit_vector_body(Text *text, const Ring *ring, const Target *target,
 	const Precision *precision)
 {

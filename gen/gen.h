@@ -365,6 +365,8 @@ void emit_show(Text *text, const Integrand *monomial, const char *format_name); 
 /* The body of a ring kernel whose lanes run side by side, after its signature. */
 void emit_vector_body(Text *text, const Ring *ring, const Target *target,
 	const Precision *precision);
+void emit_vector_finish(Text *text, const Ring *ring, const Target *target);
+int  emit_finishes_columns(const Ring *ring);  /* is there a batch function of this ring? */
 void emit_rings(Files *files, const Request *request, const Kernels *kernels);
 /* edgewise_kernels.h, edgewise.h, and the manifest (JSON, all but the files). */
 void emit_list(Files *files, const Request *request, const Kernels *kernels);

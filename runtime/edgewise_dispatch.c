@@ -90,11 +90,10 @@ unsigned ew_cpu_target(void)
 	unsigned forced = EW_LOAD(ew_cpu_forced);
 	if (forced)
 		return forced;
-	static const unsigned best[] = { EW_AVX512, EW_NEON, EW_AVX2, EW_FMA };
-	for (int i = 0; i < (int)(sizeof best / sizeof *best); ++i)
-		if (ew_targets() & best[i])
-			return best[i];
-	return EW_PORTABLE;
+	unsigned best = EW_PORTABLE;               /* bits stand in the order of speed */
+	while (best * 2 <= ew_targets())
+		best *= 2;
+	return best;
 }
 
 int ew_use_target(unsigned target)

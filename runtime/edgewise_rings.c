@@ -5,6 +5,10 @@
 #include "edgewise_runtime.h"
 
 #include <math.h>
+#include <string.h>
+#if EW_X86
+#include <emmintrin.h>
+#endif
 
 typedef struct { int window, turns, accumulators, outputs; ew_ring_finish *finish; } ew_ring_shape;
 
@@ -44,36 +48,53 @@ static void ew_ring_translate(int degree, double dx, double dy, double *a)
 }
 #endif
 
+#ifdef EW_MAX_DEGREE
+/* What finishes the moments of `count` rings side by side. */
+static ew_ring_finish *ew_ring_finish_columns(unsigned used, int degree, size_t *count)
+{
+#define EW_ROW(id, finish) finish,
+#define EW_TABLE(TARGET, target, doubles) \
+	static ew_ring_finish *const target[] = { EW_FINISHES_##TARGET(EW_ROW) };
+#define EW_CASE(TARGET, target, doubles) \
+	case EW_##TARGET: *count = doubles; return target[degree];
+	EW_TARGETS(EW_TABLE)
+	switch (used) {
+	EW_TARGETS(EW_CASE)
+	default: return NULL;          /* no such target is ever in use */
+	}
+#undef EW_ROW
+#undef EW_TABLE
+#undef EW_CASE
+}
+
+/* What went past the caches must be seen before what is written from now on. */
+static void ew_ring_fence(int past)
+{
+#if EW_X86
+	if (past)
+		_mm_sfence();
+#else
+	(void)past;
+#endif
+}
+#endif
+
 #ifdef EW_HAS_DOUBLE
-#define EW_REAL double
-#define EW_NAME(stem) ew_##stem
-#define EW_LOCAL(stem) ew_ring_##stem
-#define EW_RUN ew_ring_run
-#define EW_WIDTH EW_LANES
 #define EW_IS_FLOAT 0
-#define EW_SAFE 1e180
-#define EW_LIST_PORTABLE EW_RINGS_PORTABLE_DOUBLE
-#define EW_LIST_FMA EW_RINGS_FMA_DOUBLE
-#define EW_LIST_AVX2 EW_RINGS_AVX2_DOUBLE
-#define EW_LIST_AVX512 EW_RINGS_AVX512_DOUBLE
-#define EW_LIST_NEON EW_RINGS_NEON_DOUBLE
-#define EW_LIST_POLYNOMIALS EW_POLYNOMIALS_DOUBLE
+#include "edgewise_precision.h"
 #include "edgewise_rings_template.h"
+#ifdef EW_MAX_DEGREE
+#include "edgewise_batches_template.h"
+#endif
+#undef EW_IS_FLOAT
 #endif
 
 #ifdef EW_HAS_FLOAT
-#define EW_REAL float
-#define EW_NAME(stem) ew_##stem##f
-#define EW_LOCAL(stem) ew_ring_##stem##f
-#define EW_RUN ew_ring_runf
-#define EW_WIDTH EW_LANES_FLOAT
 #define EW_IS_FLOAT 1
-#define EW_SAFE 1e18
-#define EW_LIST_PORTABLE EW_RINGS_PORTABLE_FLOAT
-#define EW_LIST_FMA EW_RINGS_FMA_FLOAT
-#define EW_LIST_AVX2 EW_RINGS_AVX2_FLOAT
-#define EW_LIST_AVX512 EW_RINGS_AVX512_FLOAT
-#define EW_LIST_NEON EW_RINGS_NEON_FLOAT
-#define EW_LIST_POLYNOMIALS EW_POLYNOMIALS_FLOAT
+#include "edgewise_precision.h"
 #include "edgewise_rings_template.h"
+#ifdef EW_MAX_DEGREE
+#include "edgewise_batches_template.h"
+#endif
+#undef EW_IS_FLOAT
 #endif

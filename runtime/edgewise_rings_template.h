@@ -1,17 +1,14 @@
 /* edgewise_rings_template.h - the ring driver, included by edgewise_rings.c once per precision.
  *
- * Parameters: EW_REAL, EW_NAME(stem) the name of a public function with its suffix, EW_LOCAL(stem)
- * that of a local one, EW_RUN the kernel type, EW_SAFE areas between its inverse and it are far
- * from overflow and underflow, EW_WIDTH the number of virtual lanes, EW_IS_FLOAT,
- * EW_LIST_PORTABLE and so on for each target, and EW_LIST_POLYNOMIALS, the kernel lists.
- *
  * The items of a ring (its edges, or for the vertex form all vertices but the first) are numbered
- * from 0; item i goes to lane i mod EW_WIDTH, and where a ring has two turns, to accumulator set
- * i / EW_WIDTH mod 2, so a kernel always starts at a multiple of both. Kernels run on the user's arrays as long as an item
- * does not reach past the last vertex; the rest, and everything if the vertices must be moved or
- * gathered, goes through a small buffer. Where the buffer begins does not change the result. Float
- * lanes are flushed to double after every EW_BLOCK items. At the end lanes are added by halving:
- * lane l and lane l + EW_WIDTH/2, then l and l + EW_WIDTH/4, and so on.
+ * from 0; item i goes to lane i mod L, and where a ring has two turns, to accumulator set
+ * i / L mod 2. L is 1 for rings of fewer than EW_SHORT vertices, else EW_WIDTH; a last vertex that
+ * is the first one again does not count. Kernels run on the
+ * user's arrays as long as an item does not reach past the last vertex; the rest, and everything
+ * if the vertices must be moved or taken apart, goes through a small buffer, beginning at a
+ * multiple of L times turns, so that this does not change the result. Float lanes are flushed to
+ * double after every EW_BLOCK items. At the end lanes are added by halving: lane l and lane
+ * l + L/2, then l and l + L/4, and so on.
  *
  * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 
@@ -25,35 +22,17 @@ typedef struct {
 static EW_RUN *EW_LOCAL(kernel)(int id)
 {
 #define EW_ROW(id, kernel, f, a) kernel,
-	static EW_RUN *const portable[] = { EW_LIST_PORTABLE(EW_ROW) };
-#if EW_BUILD_FMA
-	static EW_RUN *const fused[] = { EW_LIST_FMA(EW_ROW) };
-#endif
-#if EW_BUILD_AVX2
-	static EW_RUN *const avx2[] = { EW_LIST_AVX2(EW_ROW) };
-#endif
-#if EW_BUILD_AVX512
-	static EW_RUN *const avx512[] = { EW_LIST_AVX512(EW_ROW) };
-#endif
-#if EW_BUILD_NEON
-	static EW_RUN *const neon[] = { EW_LIST_NEON(EW_ROW) };
-#endif
-#undef EW_ROW
+#define EW_TABLE(TARGET, target, doubles) \
+	static EW_RUN *const target[] = { EW_LIST(TARGET)(EW_ROW) };
+#define EW_CASE(TARGET, target, doubles) case EW_##TARGET: return target[id];
+	EW_TARGETS(EW_TABLE)
 	switch (ew_cpu_target()) {
-#if EW_BUILD_FMA
-	case EW_FMA: return fused[id];
-#endif
-#if EW_BUILD_AVX2
-	case EW_AVX2: return avx2[id];
-#endif
-#if EW_BUILD_AVX512
-	case EW_AVX512: return avx512[id];
-#endif
-#if EW_BUILD_NEON
-	case EW_NEON: return neon[id];
-#endif
-	default: return portable[id];
+	EW_TARGETS(EW_CASE)
+	default: return NULL;          /* no such target is ever in use */
 	}
+#undef EW_ROW
+#undef EW_TABLE
+#undef EW_CASE
 }
 
 static EW_REAL EW_LOCAL(vertex_x)(const EW_LOCAL(vertices) *v, size_t i)
@@ -68,53 +47,89 @@ static EW_REAL EW_LOCAL(vertex_y)(const EW_LOCAL(vertices) *v, size_t i)
 	return v->moved ? ((y - v->cy) - v->dy) * v->scale : y;
 }
 
-/* Items start .. end-1, through the buffer; the ring closes by itself. */
+/* Vertices start .. start+count-1, moved; after the last vertex the ring begins again. */
+static void EW_LOCAL(stage)(const EW_LOCAL(vertices) *v, size_t start, size_t count,
+	EW_REAL *x, EW_REAL *y)
+{
+	const EW_LOCAL(columns) *by = EW_LOCAL(by_columns)(ew_cpu_target());
+	size_t whole = start < v->n ? v->n - start : 0;
+	whole = whole < count ? whole : count;
+	by->move(v->x + start * v->stride, v->stride, v->cx, whole, x);
+	by->move(v->y + start * v->stride, v->stride, v->cy, whole, y);
+	if (v->dx != 0 || v->dy != 0 || v->scale != 1)
+		for (size_t k = 0; k < whole; ++k) {
+			x[k] = (x[k] - v->dx) * v->scale;
+			y[k] = (y[k] - v->dy) * v->scale;
+		}
+	for (size_t k = whole; k < count; ++k) {
+		x[k] = EW_LOCAL(vertex_x)(v, start + k - v->n);
+		y[k] = EW_LOCAL(vertex_y)(v, start + k - v->n);
+	}
+}
+
+/* Items start .. end-1, through a buffer; the ring closes by itself. */
 static void EW_LOCAL(run_staged)(EW_RUN *run, const EW_LOCAL(vertices) *v, int window,
-	size_t start, size_t end, EW_REAL *sum)
+	const EW_REAL *origin, size_t start, size_t end, EW_REAL *sum)
 {
 	EW_REAL x[EW_STAGE + 2], y[EW_STAGE + 2];
-	const EW_REAL origin = EW_LOCAL(vertex_x)(v, 0);
 	while (start < end) {
 		size_t items = end - start < EW_STAGE ? end - start : (size_t)EW_STAGE;
-		size_t vertices = items + (size_t)window - 1;
-		for (size_t k = 0; k < vertices; ++k) {
-			size_t i = start + k < v->n ? start + k : start + k - v->n;
-			x[k] = EW_LOCAL(vertex_x)(v, i);
-			y[k] = EW_LOCAL(vertex_y)(v, i);
-		}
-		run(x, y, origin, items, sum);
+		EW_LOCAL(stage)(v, start, items + (size_t)window - 1, x, y);
+		run(x, y, origin, 1, EW_WIDTH, items, sum);
 		start += items;
 	}
 }
 
-/* Sums of all accumulators over all lanes. */
-static void EW_LOCAL(run_ring)(int id, const EW_LOCAL(vertices) *v, double *total)
+/* A short ring: all items in lane 0. */
+static void EW_LOCAL(run_short)(EW_RUN *run, const EW_LOCAL(vertices) *v,
+	const ew_ring_shape *shape, const EW_REAL *origin, double *total)
 {
-	const ew_ring_shape *shape = &ew_ring_shapes[id];
+	EW_REAL x[EW_SHORT + 2], y[EW_SHORT + 2], sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
+	memset(sum, 0, (size_t)shape->accumulators * EW_WIDTH * sizeof *sum);
+	EW_LOCAL(stage)(v, 0, v->n + 1, x, y);
+	run(x, y, origin, 1, 1, v->n + 2 - (size_t)shape->window, sum);
+	for (int k = 0; k < shape->accumulators; ++k)
+		total[k] = (double)sum[k * EW_WIDTH];
+}
+
+/* Sums of all accumulators over the items of every lane. */
+static void EW_LOCAL(run_lanes)(EW_RUN *run, const EW_LOCAL(vertices) *v,
+	const ew_ring_shape *shape, const EW_REAL *origin, double *wide)
+{
 	const size_t cells = (size_t)shape->accumulators * EW_WIDTH;
 	const size_t reach = (size_t)shape->window - 1, items = v->n + 1 - reach;
 	const size_t step = (size_t)shape->turns * EW_WIDTH;
-	const size_t direct = v->moved || v->stride != 1 || v->n < reach ? 0
-		: (v->n - reach) / step * step;
-	EW_RUN *run = EW_LOCAL(kernel)(id);
+	const size_t direct = v->moved || v->stride != 1 ? 0 : (v->n - reach) / step * step;
 	EW_REAL sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
-	double wide[EW_MAX_ACCUMULATORS * EW_WIDTH];
-	for (size_t i = 0; i < cells; ++i) {
-		sum[i] = 0;
-		wide[i] = 0;
-	}
+	memset(sum, 0, cells * sizeof *sum);
+	memset(wide, 0, cells * sizeof *wide);
 	for (size_t start = 0; start < items; start += EW_BLOCK) {
 		size_t end = items - start < EW_BLOCK ? items : start + (size_t)EW_BLOCK;
 		size_t middle = direct < start ? start : direct < end ? direct : end;
 		if (middle > start)
-			run(v->x + start, v->y + start, EW_LOCAL(vertex_x)(v, 0), middle - start,
-				sum);
-		EW_LOCAL(run_staged)(run, v, shape->window, middle, end, sum);
+			run(v->x + start, v->y + start, origin, 1, EW_WIDTH, middle - start, sum);
+		EW_LOCAL(run_staged)(run, v, shape->window, origin, middle, end, sum);
 		for (size_t i = 0; i < cells && (EW_IS_FLOAT || end == items); ++i) {
 			wide[i] += (double)sum[i];
 			sum[i] = 0;
 		}
 	}
+}
+
+/* Sums of all accumulators. */
+static void EW_LOCAL(run_ring)(int id, const EW_LOCAL(vertices) *v, double *total)
+{
+	const ew_ring_shape *shape = &ew_ring_shapes[id];
+	EW_RUN *run = EW_LOCAL(kernel)(id);
+	double wide[EW_MAX_ACCUMULATORS * EW_WIDTH];
+	EW_REAL origin[EW_WIDTH];
+	for (int l = 0; l < EW_WIDTH; ++l)
+		origin[l] = EW_LOCAL(vertex_x)(v, 0);
+	if (v->n < EW_SHORT) {
+		EW_LOCAL(run_short)(run, v, shape, origin, total);
+		return;
+	}
+	EW_LOCAL(run_lanes)(run, v, shape, origin, wide);
 	for (int k = 0; k < shape->accumulators; ++k) {
 		double *lane = wide + k * EW_WIDTH;
 		for (int half = EW_WIDTH / 2; half > 0; half /= 2)
@@ -146,14 +161,28 @@ static void EW_LOCAL(integrate)(int id, const EW_LOCAL(vertices) *v, double *out
 		return;
 	}
 	EW_LOCAL(run_ring)(id, v, total);
-	ew_ring_shapes[id].finish(total, out);
+	ew_ring_shapes[id].finish(total, out, 1);
+}
+
+/* 1 if the last vertex is the first one again. */
+static size_t EW_LOCAL(is_closed)(const EW_REAL *x, const EW_REAL *y, size_t stride, size_t n)
+{
+	return n > 1 && x[0] == x[(n - 1) * stride] && y[0] == y[(n - 1) * stride];
 }
 
 static EW_LOCAL(vertices) EW_LOCAL(plain)(const EW_REAL *x, const EW_REAL *y, size_t stride,
 	size_t n)
 {
-	EW_LOCAL(vertices) v = { x, y, stride, n, 0, 0, 0, 0, 0, 1 };
+	EW_LOCAL(vertices) v = { x, y, stride, n - EW_LOCAL(is_closed)(x, y, stride, n), 0,
+		0, 0, 0, 0, 1 };
 	return v;
+}
+
+static void EW_LOCAL(move_to_first)(EW_LOCAL(vertices) *v)
+{
+	v->moved = 1;
+	v->cx = v->x[0];
+	v->cy = v->y[0];
 }
 
 static EW_REAL EW_LOCAL(integrate_one)(int id, const EW_REAL *x, const EW_REAL *y, size_t n)
@@ -251,20 +280,23 @@ static EW_REAL EW_LOCAL(unit_scale)(const EW_LOCAL(vertices) *v)
 	return (EW_REAL)ldexp(1.0, exponent > 1000 ? -1000 : -exponent);
 }
 
+/* Has no moment left the range of its precision? */
+static int EW_LOCAL(is_safe)(double area, double x, double y)
+{
+	return fabs(area) > 1 / EW_SAFE && fabs(area) < EW_SAFE && x - x == 0 && y - y == 0;
+}
+
 /* Centroid less first vertex into d, and the area; 0 if the area is 0. Moves the vertices to the
  * first one. If a moment has left the range of its precision, once more on scaled vertices. */
 static int EW_LOCAL(centre)(EW_LOCAL(vertices) *v, double d[2], double *area)
 {
 	double moment[3] = { 0, 0, 0 }, back = 1;
 	if (v->n) {
-		v->moved = 1;
-		v->cx = v->x[0];
-		v->cy = v->y[0];
+		EW_LOCAL(move_to_first)(v);
 		EW_LOCAL(integrate)(EW_RING_MOMENTS_1, v, moment);
 	}
 	*area = moment[0];
-	if (!(fabs(moment[0]) > 1 / EW_SAFE && fabs(moment[0]) < EW_SAFE
-	      && moment[1] - moment[1] == 0 && moment[2] - moment[2] == 0)) {
+	if (!EW_LOCAL(is_safe)(moment[0], moment[1], moment[2])) {
 		EW_REAL scale = EW_LOCAL(unit_scale)(v);
 		if (scale != 0) {
 			v->scale = scale;
@@ -315,17 +347,3 @@ int EW_NAME(central_moments)(int degree, const EW_REAL *x, const EW_REAL *y, siz
 	return EW_OK;
 }
 #endif
-
-#undef EW_REAL
-#undef EW_NAME
-#undef EW_LOCAL
-#undef EW_RUN
-#undef EW_WIDTH
-#undef EW_IS_FLOAT
-#undef EW_SAFE
-#undef EW_LIST_PORTABLE
-#undef EW_LIST_FMA
-#undef EW_LIST_AVX2
-#undef EW_LIST_AVX512
-#undef EW_LIST_NEON
-#undef EW_LIST_POLYNOMIALS

@@ -1,7 +1,7 @@
 /* The virtual-lane definition of the fma target, written out plainly and compared bit for bit.
  *
- * Item j goes to lane j mod L, L = 8 for double and 16 for float; a lane adds its items in order,
- * from +0, with fused multiply-adds. After every 64 items a float lane is added to a double of its
+ * Item j goes to lane j mod L, L = 8 for double and 16 for float, but 1 for a ring of fewer than 24
+ * vertices; a lane adds its items in order, from +0, with fused multiply-adds. After every 64 items a float lane is added to a double of its
  * own and starts again from 0. At the end lanes l and l + L/2 are added, then l and l + L/4, down
  * to one; that sum is scaled in double and rounded to the precision.
  *
@@ -15,7 +15,7 @@
  */
 #include "rings.h"
 
-enum { LANES = 8, LANES_FLOAT = 16, FLUSH = 64 };
+enum { LANES = 8, LANES_FLOAT = 16, FLUSH = 64, SHORT = 24 };
 
 typedef struct {
 	int lanes, items;               /* items so far */
@@ -24,9 +24,10 @@ typedef struct {
 	double lane[LANES_FLOAT], wide[LANES_FLOAT];
 } Sum;
 
-static Sum sum_new(bool narrow, int turns)
+static Sum sum_new(size_t n, bool narrow, int turns)
 {
-	return (Sum){ narrow ? LANES_FLOAT : LANES, 0, FLUSH / turns, narrow, { 0 }, { 0 } };
+	const int lanes = n < SHORT ? 1 : narrow ? LANES_FLOAT : LANES;
+	return (Sum){ lanes, 0, FLUSH / turns, narrow, { 0 }, { 0 } };
 }
 
 static void sum_flush(Sum *sum)
@@ -75,7 +76,7 @@ static double times(const Api *api, double a, double b)
 static double defined_area(const Api *api, const Ring *ring)
 {
 	const bool narrow = api->bits == 24;
-	Sum sum[2] = { sum_new(narrow, 2), sum_new(narrow, 2) };
+	Sum sum[2] = { sum_new(ring->n, narrow, 2), sum_new(ring->n, narrow, 2) };
 	for (size_t j = 0; j + 1 < ring->n; j++) {
 		const size_t next = j + 2 < ring->n ? j + 2 : 0;
 		sum_add(&sum[j / (size_t)sum->lanes % 2], plus(api, ring->x[j + 1], -ring->x[0]),
@@ -88,7 +89,7 @@ static double defined_area(const Api *api, const Ring *ring)
 static void defined_moments(const Api *api, const Ring *ring, double out[3])
 {
 	const bool narrow = api->bits == 24;
-	Sum area = sum_new(narrow, 1), x = sum_new(narrow, 1), y = sum_new(narrow, 1);
+	Sum area = sum_new(ring->n, narrow, 1), x = area, y = area;
 	for (size_t j = 0; j < ring->n; j++) {
 		const size_t next = j + 1 < ring->n ? j + 1 : 0;
 		const double x0 = ring->x[j], y0 = ring->y[j];
