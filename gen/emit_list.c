@@ -44,7 +44,7 @@ static void add_environment(Text *text, const Request *request)
 		"&& !defined(__TINYC__)\n#define EW_X86 1\n"
 		"#define EW_ATTRIBUTE_FMA __attribute__((target(\"fma\")))\n"
 		"#define EW_ATTRIBUTE_AVX2 __attribute__((target(\"avx2,fma\")))\n"
-		"#define EW_ATTRIBUTE_AVX512 __attribute__((target(\"avx512f\")))\n"
+		"#define EW_ATTRIBUTE_AVX512 __attribute__((target(\"avx512f,fma\")))\n"
 		"#else\n#define EW_X86 0\n#define EW_ATTRIBUTE_FMA\n#endif\n"
 		"#if defined(__aarch64__)\n#define EW_ARM 1\n#define EW_ATTRIBUTE_NEON\n"
 		"#else\n#define EW_ARM 0\n#endif\n"

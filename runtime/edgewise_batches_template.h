@@ -10,25 +10,33 @@
  *
  * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 
+/* Up to EW_WIDTH rings side by side, from ring `first` on. */
+typedef struct {
+	size_t first, count, furthest;         /* furthest: the start that comes last */
+	ew_ring_lanes lanes;
+	int left_out;                          /* is a ring for the driver of single rings? */
+	int32_t start[EW_WIDTH];               /* if not as in the offsets */
+	EW_ALIGNED EW_REAL length[EW_WIDTH];              /* 0: no ring, or left out */
+	EW_ALIGNED EW_REAL x[EW_TILE * EW_WIDTH];
+	EW_ALIGNED EW_REAL y[EW_TILE * EW_WIDTH];
+} EW_LOCAL(group);
+
+/* While one group is integrated the tile of the next is already filled, so that what was stored by
+ * halves of a register has reached the cache before it is loaded. */
 typedef struct {
 	const EW_REAL *x, *y;
 	const int32_t *offsets;
 	size_t rings;
-	int id, moved;                 /* moved: about the first vertex of each ring */
+	int id, moved;                         /* moved: about the first vertex of each ring */
 	EW_RUN *run;
-	ew_ring_finish *finish;        /* as many neighbours as `finished` */
+	ew_ring_finish *finish;                /* of `finished` rings side by side */
+	size_t finished, most;                 /* a ring of `most` vertices does not fit */
 	const EW_LOCAL(columns) *by;
-	size_t finished;
+	EW_LOCAL(group) group[2];
+	int now;
+	EW_ALIGNED EW_REAL sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
+	EW_ALIGNED double result[EW_MAX_OUTPUTS * EW_WIDTH];       /* [output * EW_WIDTH + lane] */
 } EW_LOCAL(batch);
-
-/* Up to EW_WIDTH rings side by side, from ring `first` on. */
-typedef struct {
-	size_t first, count, shortest, longest, furthest;    /* furthest: start */
-	size_t start[EW_WIDTH];        /* of a lane without a ring of its own: that of another */
-	EW_REAL length[EW_WIDTH];      /* and 0 */
-	size_t left_out;               /* lanes for the driver of single rings */
-	size_t lane[EW_WIDTH];
-} EW_LOCAL(group);
 
 static size_t EW_LOCAL(ring_size)(const EW_LOCAL(batch) *b, size_t ring)
 {
@@ -45,102 +53,124 @@ static EW_LOCAL(vertices) EW_LOCAL(ring_vertices)(const EW_LOCAL(batch) *b, size
 	return v;
 }
 
+/* The vertices of a ring that fits into the tile, else 0. */
+EW_INLINE size_t EW_LOCAL(short_size)(const EW_LOCAL(batch) *b, size_t ring)
+{
+	size_t n = EW_LOCAL(ring_size)(b, ring);
+	if (n == EW_SHORT)
+		n = EW_LOCAL(ring_vertices)(b, ring).n;
+	return n - 3 < b->most - 3 ? n : 0;
+}
+
+/* Lanes without a ring get the start of one that fits. */
+static void EW_LOCAL(fill_lanes)(size_t width, EW_LOCAL(group) *g)
+{
+	for (size_t l = 0; l < width; ++l) {
+		if (l >= g->count)
+			g->length[l] = 0;
+		g->start[l] = g->length[l] > 0 ? g->lanes.start[l] : (int32_t)g->furthest;
+	}
+	g->lanes.start = g->start;
+	g->lanes.shortest = 0;
+}
+
 static void EW_LOCAL(form_group)(const EW_LOCAL(batch) *b, size_t first, EW_LOCAL(group) *g)
 {
-	size_t some = 0, left = b->rings - first;
+	const size_t left = b->rings - first, width = b->by->width;
+	const size_t count = left < width ? left : width;
+	const int32_t *start = b->offsets + first;
+	size_t shortest = EW_SHORT, longest = 0, furthest = 0;
+	for (size_t l = 0; l < count; ++l) {
+		const size_t n = EW_LOCAL(short_size)(b, first + l);
+		g->length[l] = (EW_REAL)n;
+		furthest = n ? (size_t)start[l] : furthest;
+		shortest = n < shortest ? n : shortest;
+		longest = n > longest ? n : longest;
+	}
 	g->first = first;
-	g->count = left < b->by->width ? left : b->by->width;
-	g->shortest = EW_SHORT;
-	g->longest = 0;
-	g->left_out = 0;
-	for (size_t l = 0; l < g->count; ++l) {
-		const size_t start = (size_t)b->offsets[first + l];
-		const size_t stored = EW_LOCAL(ring_size)(b, first + l);
-		const size_t n = stored - EW_LOCAL(is_closed)(b->x + start, b->y + start, 1, stored);
-		const int fits = b->by->gather && n - 3 < EW_SHORT - 3;
-		g->start[l] = start;
-		g->length[l] = fits ? (EW_REAL)n : 0;
-		some = fits ? l : some;
-		g->shortest = n < g->shortest ? n : g->shortest;
-		g->longest = fits && n > g->longest ? n : g->longest;
-		g->lane[g->left_out] = l;
-		g->left_out += !fits;
-	}
-	g->furthest = g->start[some];
-	for (size_t k = 0; k < g->left_out; ++k)
-		g->start[g->lane[k]] = g->furthest;
-	for (size_t l = g->count; l < b->by->width; ++l) {
-		g->start[l] = g->furthest;
-		g->length[l] = 0;
-	}
-	g->shortest = g->left_out || g->count < b->by->width ? 0 : g->shortest;
+	g->count = count;
+	g->furthest = furthest;
+	g->left_out = shortest == 0;
+	g->lanes.start = start;
+	g->lanes.shortest = shortest;
+	g->lanes.longest = longest;
+	if (g->left_out || count < width)
+		EW_LOCAL(fill_lanes)(width, g);
 }
 
 /* Near the end of the arrays a gather by vectors would read past them. */
 static void EW_LOCAL(gather_slowly)(const EW_REAL *from, const EW_LOCAL(group) *g, size_t width,
 	int moved, EW_REAL *tile)
 {
-	for (size_t l = 0; l < width; ++l)
-		for (size_t c = 0; c <= g->longest; ++c) {
-			size_t i = (EW_REAL)c < g->length[l] ? c : 0;
-			EW_REAL origin = moved ? from[g->start[l]] : 0;
-			tile[c * width + l] = from[g->start[l] + i] - origin;
-		}
-}
-
-static void EW_LOCAL(fill_tile)(const EW_LOCAL(batch) *b, const EW_LOCAL(group) *g,
-	const EW_REAL *from, EW_REAL *tile)
-{
-	if (g->furthest + g->longest + 3 <= (size_t)b->offsets[b->rings])
-		b->by->gather(from, g->start, g->length, g->shortest, g->longest, b->moved, tile);
-	else
-		EW_LOCAL(gather_slowly)(from, g, b->by->width, b->moved, tile);
-}
-
-/* Results of the lanes that have a ring of their own: out[output * EW_WIDTH + lane]. */
-static void EW_LOCAL(run_group)(const EW_LOCAL(batch) *b, const EW_LOCAL(group) *g, double *out)
-{
-	const ew_ring_shape *shape = &ew_ring_shapes[b->id];
-	const size_t width = b->by->width, cells = (size_t)shape->accumulators * EW_WIDTH;
-	EW_REAL x[EW_TILE * EW_WIDTH], y[EW_TILE * EW_WIDTH], sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
-#if EW_IS_FLOAT
-	double wide[EW_MAX_ACCUMULATORS * EW_WIDTH];
-#else
-	const double *wide = sum;
-#endif
-	memset(sum, 0, cells * sizeof *sum);
-	EW_LOCAL(fill_tile)(b, g, b->x, x);
-	EW_LOCAL(fill_tile)(b, g, b->y, y);
-	b->run(x, y, x, width, width, (g->longest + 2 - (size_t)shape->window) * width, sum);
-#if EW_IS_FLOAT
-	for (size_t i = 0; i < cells; ++i)
-		wide[i] = (double)sum[i];
-#endif
-	for (size_t l = 0; l < width; l += b->finished)
-		b->finish(wide + l, out + l, EW_WIDTH);
-}
-
-static void EW_LOCAL(run_left_out)(const EW_LOCAL(batch) *b, const EW_LOCAL(group) *g, double *out)
-{
-	double result[EW_MAX_OUTPUTS];
-	for (size_t k = 0; k < g->left_out; ++k) {
-		EW_LOCAL(vertices) v = EW_LOCAL(ring_vertices)(b, g->first + g->lane[k]);
-		EW_LOCAL(integrate)(b->id, &v, result);
-		for (int j = 0; j < ew_ring_shapes[b->id].outputs; ++j)
-			out[j * EW_WIDTH + (int)g->lane[k]] = result[j];
+	for (size_t l = 0; l < width; ++l) {
+		const EW_REAL *row = from + g->lanes.start[l], origin = moved ? row[0] : 0;
+		for (size_t c = 0; c < g->lanes.longest + 2; ++c)
+			tile[c * width + l] = row[(EW_REAL)c < g->length[l] ? c : 0] - origin;
 	}
 }
 
-/* The next group: its results, and behind it 0 when no ring is left. */
-static int EW_LOCAL(next_group)(const EW_LOCAL(batch) *b, EW_LOCAL(group) *g, double *out)
+static void EW_LOCAL(prepare)(const EW_LOCAL(batch) *b, size_t first, EW_LOCAL(group) *g)
 {
-	if (g->first == b->rings)
-		return 0;
-	EW_LOCAL(form_group)(b, g->first, g);
-	if (g->longest)
-		EW_LOCAL(run_group)(b, g, out);
-	EW_LOCAL(run_left_out)(b, g, out);
-	return 1;
+	const size_t width = b->by->width;
+	EW_LOCAL(form_group)(b, first, g);
+	if (g->lanes.longest == 0)
+		return;
+	if (g->furthest + g->lanes.longest + 3 <= (size_t)b->offsets[b->rings]) {
+		b->by->gather(b->x, &g->lanes, g->length, b->moved, g->x);
+		b->by->gather(b->y, &g->lanes, g->length, b->moved, g->y);
+	} else {
+		EW_LOCAL(gather_slowly)(b->x, g, width, b->moved, g->x);
+		EW_LOCAL(gather_slowly)(b->y, g, width, b->moved, g->y);
+	}
+}
+
+/* An odd number of items is made even by one that adds 0: kernels take pairs. */
+static void EW_LOCAL(run_group)(EW_LOCAL(batch) *b, const EW_LOCAL(group) *g)
+{
+	const ew_ring_shape *shape = &ew_ring_shapes[b->id];
+	const size_t width = b->by->width, cells = (size_t)shape->accumulators * EW_WIDTH;
+	const size_t items = (g->lanes.longest + 3 - (size_t)shape->window) / 2 * 2;
+#if EW_IS_FLOAT
+	EW_ALIGNED double wide[EW_MAX_ACCUMULATORS * EW_WIDTH];
+#else
+	const double *wide = b->sum;
+#endif
+	b->run(g->x, g->y, g->x, width, width, items * width, b->sum);
+#if EW_IS_FLOAT
+	for (size_t i = 0; i < cells; ++i)
+		wide[i] = (double)b->sum[i];
+#endif
+	for (size_t l = 0; l < width; l += b->finished)
+		b->finish(wide + l, b->result + l, EW_WIDTH);
+	memset(b->sum, 0, cells * sizeof *b->sum);
+}
+
+static void EW_LOCAL(run_left_out)(EW_LOCAL(batch) *b, const EW_LOCAL(group) *g)
+{
+	double result[EW_MAX_OUTPUTS];
+	for (size_t l = 0; l < g->count; ++l) {
+		if (g->length[l] > 0)
+			continue;
+		EW_LOCAL(vertices) v = EW_LOCAL(ring_vertices)(b, g->first + l);
+		EW_LOCAL(integrate)(b->id, &v, result);
+		for (int j = 0; j < ew_ring_shapes[b->id].outputs; ++j)
+			b->result[j * EW_WIDTH + (int)l] = result[j];
+	}
+}
+
+/* The next group, with its results in b->result; NULL when no ring is left. */
+static const EW_LOCAL(group) *EW_LOCAL(next_group)(EW_LOCAL(batch) *b)
+{
+	const EW_LOCAL(group) *g = &b->group[b->now];
+	if (g->count == 0)
+		return NULL;
+	b->now = !b->now;
+	EW_LOCAL(prepare)(b, g->first + g->count, &b->group[b->now]);
+	if (g->lanes.longest)
+		EW_LOCAL(run_group)(b, g);
+	if (g->left_out)
+		EW_LOCAL(run_left_out)(b, g);
+	return g;
 }
 
 static int EW_LOCAL(bad_offsets)(const int32_t *offsets, size_t rings)
@@ -153,15 +183,23 @@ static int EW_LOCAL(bad_offsets)(const int32_t *offsets, size_t rings)
 	return bad;
 }
 
-static EW_LOCAL(batch) EW_LOCAL(batch_of)(int degree, const EW_REAL *x, const EW_REAL *y,
-	const int32_t *offsets, size_t rings)
+static void EW_LOCAL(begin)(EW_LOCAL(batch) *b, int degree, int moved, const EW_REAL *x,
+	const EW_REAL *y, const int32_t *offsets, size_t rings)
 {
 	const unsigned target = ew_cpu_target();
-	EW_LOCAL(batch) b = { x, y, offsets, rings, EW_RING_MOMENTS_0 + degree, 0, NULL, NULL,
-		EW_LOCAL(by_columns)(target), 1 };
-	b.run = EW_LOCAL(kernel)(b.id);
-	b.finish = ew_ring_finish_columns(target, degree, &b.finished);
-	return b;
+	b->x = x;
+	b->y = y;
+	b->offsets = offsets;
+	b->rings = rings;
+	b->id = EW_RING_MOMENTS_0 + degree;
+	b->moved = moved;
+	b->run = EW_LOCAL(kernel)(b->id);
+	b->finish = ew_ring_finish_columns(target, degree, &b->finished);
+	b->by = EW_LOCAL(by_columns)(target);
+	b->most = b->by->gather ? EW_SHORT : 3;
+	b->now = 0;
+	memset(b->sum, 0, sizeof b->sum);
+	EW_LOCAL(prepare)(b, 0, &b->group[0]);
 }
 
 /* Past the caches if the results of all rings would not stay in them anyway. */
@@ -201,14 +239,16 @@ int EW_NAME(moments_rings)(int degree, const EW_REAL *x, const EW_REAL *y, const
 		return EW_BAD_OFFSETS;
 	const size_t outputs = EW_MOMENTS((size_t)degree);
 	const int past = EW_LOCAL(is_large)(rings * outputs);
-	const EW_LOCAL(batch) b = EW_LOCAL(batch_of)(degree, x, y, offsets, rings);
-	double result[EW_MAX_OUTPUTS * EW_WIDTH];
-	EW_LOCAL(group) g = { 0 };
-	for (; EW_LOCAL(next_group)(&b, &g, result); g.first += g.count)
-		for (size_t l = 0; l < g.count; ++l)
+	const EW_LOCAL(group) *g;
+	EW_LOCAL(batch) b;
+	EW_LOCAL(begin)(&b, degree, 0, x, y, offsets, rings);
+	for (EW_REAL *to = out; (g = EW_LOCAL(next_group)(&b)) != NULL;) {
+		const double *result = b.result;
+		const size_t count = g->count;
+		for (size_t l = 0; l < count; ++l)
 			for (size_t j = 0; j < outputs; ++j)
-				EW_LOCAL(put)(out + (g.first + l) * outputs + j,
-					result[j * EW_WIDTH + l], past);
+				EW_LOCAL(put)(to++, result[j * EW_WIDTH + l], past);
+	}
 	ew_ring_fence(past);
 	return EW_OK;
 }
@@ -222,8 +262,9 @@ int EW_NAME(area_rings)(const EW_REAL *x, const EW_REAL *y, const int32_t *offse
 #if EW_MAX_DEGREE >= 1
 /* Centroid of lane l, as EW_NAME(centroid) has it. */
 static void EW_LOCAL(lane_centroid)(const EW_LOCAL(batch) *b, const EW_LOCAL(group) *g, size_t l,
-	const double *moment, EW_REAL c[2])
+	EW_REAL c[2])
 {
+	const double *moment = b->result;
 	EW_LOCAL(vertices) v = EW_LOCAL(ring_vertices)(b, g->first + l);
 	if (v.n >= 3 && EW_LOCAL(is_safe)(moment[l], moment[EW_WIDTH + l], moment[2 * EW_WIDTH + l])) {
 		c[0] = (EW_REAL)((double)v.x[0] + moment[EW_WIDTH + l] / moment[l]);
@@ -238,16 +279,15 @@ int EW_NAME(centroid_rings)(const EW_REAL *x, const EW_REAL *y, const int32_t *o
 	if (EW_LOCAL(bad_offsets)(offsets, rings))
 		return EW_BAD_OFFSETS;
 	const int past = EW_LOCAL(is_large)(2 * rings);
-	EW_LOCAL(batch) b = EW_LOCAL(batch_of)(1, x, y, offsets, rings);
-	double result[EW_MAX_OUTPUTS * EW_WIDTH];
-	EW_LOCAL(group) g = { 0 };
-	b.moved = 1;
-	for (; EW_LOCAL(next_group)(&b, &g, result); g.first += g.count)
-		for (size_t l = 0; l < g.count; ++l) {
+	const EW_LOCAL(group) *g;
+	EW_LOCAL(batch) b;
+	EW_LOCAL(begin)(&b, 1, 1, x, y, offsets, rings);
+	while ((g = EW_LOCAL(next_group)(&b)) != NULL)
+		for (size_t l = 0; l < g->count; ++l) {
 			EW_REAL c[2];
-			EW_LOCAL(lane_centroid)(&b, &g, l, result, c);
-			EW_LOCAL(put)(cx + g.first + l, (double)c[0], past);
-			EW_LOCAL(put)(cy + g.first + l, (double)c[1], past);
+			EW_LOCAL(lane_centroid)(&b, g, l, c);
+			EW_LOCAL(put)(cx + g->first + l, (double)c[0], past);
+			EW_LOCAL(put)(cy + g->first + l, (double)c[1], past);
 		}
 	ew_ring_fence(past);
 	return EW_OK;

@@ -23,35 +23,39 @@ static void ew_ring_move_scalarf(const float *from, size_t stride, float origin,
 		to[i] = from[i * stride] - origin;
 }
 
+static const ew_ring_columns ew_ring_columns_scalar = { 1, ew_ring_move_scalar, NULL };
+static const ew_ring_columnsf ew_ring_columns_scalarf = { 1, ew_ring_move_scalarf, NULL };
+
 #if EW_BUILD_AVX2 || EW_BUILD_AVX512
 #include <immintrin.h>
+#endif
 
-EW_ATTRIBUTE_AVX2 static void ew_ring_block_x86(const double *from, const size_t *start,
+#if EW_BUILD_AVX2
+
+EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2(const double *from, const size_t *start,
 	__m256d column[2])
 {
 	const __m256d even = _mm256_insertf128_pd(
-		_mm256_castpd128_pd256(_mm_loadu_pd(from + start[0])),
-		_mm_loadu_pd(from + start[2]), 1);
+		_mm256_castpd128_pd256(_mm_loadu_pd(from + start[0])), _mm_loadu_pd(from + start[2]), 1);
 	const __m256d odd = _mm256_insertf128_pd(
-		_mm256_castpd128_pd256(_mm_loadu_pd(from + start[1])),
-		_mm_loadu_pd(from + start[3]), 1);
+		_mm256_castpd128_pd256(_mm_loadu_pd(from + start[1])), _mm_loadu_pd(from + start[3]), 1);
 	column[0] = _mm256_unpacklo_pd(even, odd);
 	column[1] = _mm256_unpackhi_pd(even, odd);
 }
 
-EW_ATTRIBUTE_AVX2 static __m256 ew_ring_rows_x86f(const float *low, const float *high)
+EW_ATTRIBUTE_AVX2 EW_INLINE __m256 ew_ring_rows_avx2f(const float *low, const float *high)
 {
 	return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high),
 		1);
 }
 
-EW_ATTRIBUTE_AVX2 static void ew_ring_block_x86f(const float *from, const size_t *start,
+EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2f(const float *from, const size_t *start,
 	__m256 column[4])
 {
-	const __m256 r0 = ew_ring_rows_x86f(from + start[0], from + start[4]);
-	const __m256 r1 = ew_ring_rows_x86f(from + start[1], from + start[5]);
-	const __m256 r2 = ew_ring_rows_x86f(from + start[2], from + start[6]);
-	const __m256 r3 = ew_ring_rows_x86f(from + start[3], from + start[7]);
+	const __m256 r0 = ew_ring_rows_avx2f(from + start[0], from + start[4]);
+	const __m256 r1 = ew_ring_rows_avx2f(from + start[1], from + start[5]);
+	const __m256 r2 = ew_ring_rows_avx2f(from + start[2], from + start[6]);
+	const __m256 r3 = ew_ring_rows_avx2f(from + start[3], from + start[7]);
 	const __m256 low01 = _mm256_unpacklo_ps(r0, r1), high01 = _mm256_unpackhi_ps(r0, r1);
 	const __m256 low23 = _mm256_unpacklo_ps(r2, r3), high23 = _mm256_unpackhi_ps(r2, r3);
 	column[0] = _mm256_shuffle_ps(low01, low23, 0x44);
@@ -60,12 +64,13 @@ EW_ATTRIBUTE_AVX2 static void ew_ring_block_x86f(const float *from, const size_t
 	column[3] = _mm256_shuffle_ps(high01, high23, 0xee);
 }
 
-#define EW_ISA(stem) ew_ring_##stem##_x86
+#define EW_ISA(stem) ew_ring_##stem##_avx2
 #define EW_VECTOR __m256d
 #define EW_ATTRIBUTE EW_ATTRIBUTE_AVX2
 #define EW_ROWS 4
+#define EW_STARTS(s) { (size_t)s[0], (size_t)s[1], (size_t)s[2], (size_t)s[3] }
 #define EW_COLUMNS 2
-#define EW_WIDTHS EW_GATHER(4) EW_GATHER(8)
+#define EW_EACH(X) X(0) X(1)
 #define EW_LOAD(p) _mm256_loadu_pd(p)
 #define EW_STORE(p, v) _mm256_storeu_pd(p, v)
 #define EW_SPLAT(a) _mm256_set1_pd(a)
@@ -77,12 +82,14 @@ EW_ATTRIBUTE_AVX2 static void ew_ring_block_x86f(const float *from, const size_t
 #include "edgewise_columns_template.h"
 #undef EW_IS_FLOAT
 
-#define EW_ISA(stem) ew_ring_##stem##_x86f
+#define EW_ISA(stem) ew_ring_##stem##_avx2f
 #define EW_VECTOR __m256
 #define EW_ATTRIBUTE EW_ATTRIBUTE_AVX2
 #define EW_ROWS 8
+#define EW_STARTS(s) { (size_t)s[0], (size_t)s[1], (size_t)s[2], (size_t)s[3], \
+	(size_t)s[4], (size_t)s[5], (size_t)s[6], (size_t)s[7] }
 #define EW_COLUMNS 4
-#define EW_WIDTHS EW_GATHER(8) EW_GATHER(16)
+#define EW_EACH(X) X(0) X(1) X(2) X(3)
 #define EW_LOAD(p) _mm256_loadu_ps(p)
 #define EW_STORE(p, v) _mm256_storeu_ps(p, v)
 #define EW_SPLAT(a) _mm256_set1_ps(a)
@@ -94,19 +101,113 @@ EW_ATTRIBUTE_AVX2 static void ew_ring_block_x86f(const float *from, const size_t
 #define EW_IS_FLOAT 1
 #include "edgewise_columns_template.h"
 #undef EW_IS_FLOAT
+
+#endif
+
+#if EW_BUILD_AVX512
+/* Four pairs or quadruples of numbers, one in each quarter of a register: loads that blend, which
+ * is cheaper than shuffles of whole registers. */
+EW_ATTRIBUTE_AVX512 EW_INLINE __m512 ew_ring_quarters_avx512(const float *a, const float *b,
+	const float *c, const float *d)
+{
+	__m512 v = _mm512_castps128_ps512(_mm_loadu_ps(a));
+	v = _mm512_mask_broadcast_f32x4(v, 0x00f0, _mm_loadu_ps(b));
+	v = _mm512_mask_broadcast_f32x4(v, 0x0f00, _mm_loadu_ps(c));
+	return _mm512_mask_broadcast_f32x4(v, 0xf000, _mm_loadu_ps(d));
+}
+
+EW_ATTRIBUTE_AVX512 EW_INLINE __m512d ew_ring_pairs_avx512(const double *from,
+	const size_t *start)
+{
+	return _mm512_castps_pd(ew_ring_quarters_avx512((const float *)(from + start[0]),
+		(const float *)(from + start[2]), (const float *)(from + start[4]),
+		(const float *)(from + start[6])));
+}
+
+EW_ATTRIBUTE_AVX512 EW_INLINE void ew_ring_block_avx512(const double *from, const size_t *start,
+	__m512d column[2])
+{
+	const __m512d even = ew_ring_pairs_avx512(from, start);
+	const __m512d odd = ew_ring_pairs_avx512(from, start + 1);
+	column[0] = _mm512_unpacklo_pd(even, odd);
+	column[1] = _mm512_unpackhi_pd(even, odd);
+}
+
+EW_ATTRIBUTE_AVX512 EW_INLINE __m512 ew_ring_rows_avx512f(const float *from, const size_t *start)
+{
+	return ew_ring_quarters_avx512(from + start[0], from + start[4], from + start[8],
+		from + start[12]);
+}
+
+EW_ATTRIBUTE_AVX512 EW_INLINE void ew_ring_block_avx512f(const float *from, const size_t *start,
+	__m512 column[4])
+{
+	const __m512 r0 = ew_ring_rows_avx512f(from, start);
+	const __m512 r1 = ew_ring_rows_avx512f(from, start + 1);
+	const __m512 r2 = ew_ring_rows_avx512f(from, start + 2);
+	const __m512 r3 = ew_ring_rows_avx512f(from, start + 3);
+	const __m512 low01 = _mm512_unpacklo_ps(r0, r1), high01 = _mm512_unpackhi_ps(r0, r1);
+	const __m512 low23 = _mm512_unpacklo_ps(r2, r3), high23 = _mm512_unpackhi_ps(r2, r3);
+	column[0] = _mm512_shuffle_ps(low01, low23, 0x44);
+	column[1] = _mm512_shuffle_ps(low01, low23, 0xee);
+	column[2] = _mm512_shuffle_ps(high01, high23, 0x44);
+	column[3] = _mm512_shuffle_ps(high01, high23, 0xee);
+}
+
+#define EW_ISA(stem) ew_ring_##stem##_avx512
+#define EW_VECTOR __m512d
+#define EW_ATTRIBUTE EW_ATTRIBUTE_AVX512
+#define EW_ROWS 8
+#define EW_STARTS(s) { (size_t)s[0], (size_t)s[1], (size_t)s[2], (size_t)s[3], \
+	(size_t)s[4], (size_t)s[5], (size_t)s[6], (size_t)s[7] }
+#define EW_COLUMNS 2
+#define EW_EACH(X) X(0) X(1)
+#define EW_LOAD(p) _mm512_loadu_pd(p)
+#define EW_STORE(p, v) _mm512_storeu_pd(p, v)
+#define EW_SPLAT(a) _mm512_set1_pd(a)
+#define EW_SUB(a, b) _mm512_sub_pd(a, b)
+#define EW_SELECT(length, c, v, first) \
+	_mm512_mask_blend_pd(_mm512_cmp_pd_mask(length, c, _CMP_GT_OQ), first, v)
+#define EW_EVEN(a, b) _mm512_permutex2var_pd(a, \
+	_mm512_set_epi64(14, 12, 10, 8, 6, 4, 2, 0), b)
+#define EW_IS_FLOAT 0
+#include "edgewise_columns_template.h"
+#undef EW_IS_FLOAT
+
+#define EW_ISA(stem) ew_ring_##stem##_avx512f
+#define EW_VECTOR __m512
+#define EW_ATTRIBUTE EW_ATTRIBUTE_AVX512
+#define EW_ROWS 16
+#define EW_STARTS(s) { (size_t)s[0], (size_t)s[1], (size_t)s[2], (size_t)s[3], \
+	(size_t)s[4], (size_t)s[5], (size_t)s[6], (size_t)s[7], \
+	(size_t)s[8], (size_t)s[9], (size_t)s[10], (size_t)s[11], \
+	(size_t)s[12], (size_t)s[13], (size_t)s[14], (size_t)s[15] }
+#define EW_COLUMNS 4
+#define EW_EACH(X) X(0) X(1) X(2) X(3)
+#define EW_LOAD(p) _mm512_loadu_ps(p)
+#define EW_STORE(p, v) _mm512_storeu_ps(p, v)
+#define EW_SPLAT(a) _mm512_set1_ps(a)
+#define EW_SUB(a, b) _mm512_sub_ps(a, b)
+#define EW_SELECT(length, c, v, first) \
+	_mm512_mask_blend_ps(_mm512_cmp_ps_mask(length, c, _CMP_GT_OQ), first, v)
+#define EW_EVEN(a, b) _mm512_permutex2var_ps(a, \
+	_mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0), b)
+#define EW_IS_FLOAT 1
+#include "edgewise_columns_template.h"
+#undef EW_IS_FLOAT
 #endif
 
 #if EW_BUILD_NEON
 #include <arm_neon.h>
 
-static void ew_ring_block_neon(const double *from, const size_t *start, float64x2_t column[2])
+EW_INLINE void ew_ring_block_neon(const double *from, const size_t *start, float64x2_t column[2])
 {
 	const float64x2_t r0 = vld1q_f64(from + start[0]), r1 = vld1q_f64(from + start[1]);
 	column[0] = vzip1q_f64(r0, r1);
 	column[1] = vzip2q_f64(r0, r1);
 }
 
-static void ew_ring_block_neonf(const float *from, const size_t *start, float32x4_t column[4])
+EW_INLINE void ew_ring_block_neonf(const float *from, const size_t *start, float32x4_t column[4])
 {
 	const float32x4_t r0 = vld1q_f32(from + start[0]), r1 = vld1q_f32(from + start[1]);
 	const float32x4_t r2 = vld1q_f32(from + start[2]), r3 = vld1q_f32(from + start[3]);
@@ -124,8 +225,9 @@ static void ew_ring_block_neonf(const float *from, const size_t *start, float32x
 #define EW_VECTOR float64x2_t
 #define EW_ATTRIBUTE EW_ATTRIBUTE_NEON
 #define EW_ROWS 2
+#define EW_STARTS(s) { (size_t)s[0], (size_t)s[1] }
 #define EW_COLUMNS 2
-#define EW_WIDTHS EW_GATHER(2)
+#define EW_EACH(X) X(0) X(1)
 #define EW_LOAD(p) vld1q_f64(p)
 #define EW_STORE(p, v) vst1q_f64(p, v)
 #define EW_SPLAT(a) vdupq_n_f64(a)
@@ -140,8 +242,9 @@ static void ew_ring_block_neonf(const float *from, const size_t *start, float32x
 #define EW_VECTOR float32x4_t
 #define EW_ATTRIBUTE EW_ATTRIBUTE_NEON
 #define EW_ROWS 4
+#define EW_STARTS(s) { (size_t)s[0], (size_t)s[1], (size_t)s[2], (size_t)s[3] }
 #define EW_COLUMNS 4
-#define EW_WIDTHS EW_GATHER(4)
+#define EW_EACH(X) X(0) X(1) X(2) X(3)
 #define EW_LOAD(p) vld1q_f32(p)
 #define EW_STORE(p, v) vst1q_f32(p, v)
 #define EW_SPLAT(a) vdupq_n_f32(a)
@@ -153,42 +256,27 @@ static void ew_ring_block_neonf(const float *from, const size_t *start, float32x
 #undef EW_IS_FLOAT
 #endif
 
-const ew_ring_columns *ew_ring_by_columns(unsigned target)
+#define ew_ring_columns_portable ew_ring_columns_scalar
+#define ew_ring_columns_fma ew_ring_columns_scalar
+#define ew_ring_columns_portablef ew_ring_columns_scalarf
+#define ew_ring_columns_fmaf ew_ring_columns_scalarf
+
+const ew_ring_columns *ew_ring_by_columns(unsigned used)
 {
-	static const ew_ring_columns scalar = { 1, ew_ring_move_scalar, NULL };
-#if EW_BUILD_AVX2 || EW_BUILD_AVX512
-	static const ew_ring_columns x86[] = {
-		{ 4, ew_ring_move_x86, ew_ring_gather_4_x86 },
-		{ 8, ew_ring_move_x86, ew_ring_gather_8_x86 },
-	};
-	if (target == EW_AVX2 || target == EW_AVX512)
-		return &x86[target == EW_AVX512];
-#endif
-#if EW_BUILD_NEON
-	static const ew_ring_columns neon = { 2, ew_ring_move_neon, ew_ring_gather_2_neon };
-	if (target == EW_NEON)
-		return &neon;
-#endif
-	(void)target;
-	return &scalar;
+#define EW_CASE(TARGET, target, doubles) case EW_##TARGET: return &ew_ring_columns_##target;
+	switch (used) {
+	EW_TARGETS(EW_CASE)
+	default: return NULL;          /* no such target is ever in use */
+	}
+#undef EW_CASE
 }
 
-const ew_ring_columnsf *ew_ring_by_columnsf(unsigned target)
+const ew_ring_columnsf *ew_ring_by_columnsf(unsigned used)
 {
-	static const ew_ring_columnsf scalar = { 1, ew_ring_move_scalarf, NULL };
-#if EW_BUILD_AVX2 || EW_BUILD_AVX512
-	static const ew_ring_columnsf x86[] = {
-		{ 8, ew_ring_move_x86f, ew_ring_gather_8_x86f },
-		{ 16, ew_ring_move_x86f, ew_ring_gather_16_x86f },
-	};
-	if (target == EW_AVX2 || target == EW_AVX512)
-		return &x86[target == EW_AVX512];
-#endif
-#if EW_BUILD_NEON
-	static const ew_ring_columnsf neon = { 4, ew_ring_move_neonf, ew_ring_gather_4_neonf };
-	if (target == EW_NEON)
-		return &neon;
-#endif
-	(void)target;
-	return &scalar;
+#define EW_CASE(TARGET, target, doubles) case EW_##TARGET: return &ew_ring_columns_##target##f;
+	switch (used) {
+	EW_TARGETS(EW_CASE)
+	default: return NULL;
+	}
+#undef EW_CASE
 }

@@ -20,52 +20,52 @@ EW_ATTRIBUTE static void EW_ISA(move)(const EW_REAL *from, size_t stride, EW_REA
 		to[i] = from[i * stride] - origin;
 }
 
-/* EW_ROWS rings of the tile, from column 0 to `longest`. */
-EW_ATTRIBUTE static void EW_ISA(gather)(const EW_REAL *from, const size_t *start,
-	const EW_REAL *length, size_t shortest, size_t longest, size_t width, int moved,
-	EW_REAL *tile)
+#define EW_SELECT_COLUMN(k) \
+	column[k] = EW_SELECT(EW_LOAD(lengths), EW_SPLAT((EW_REAL)(c + k)), column[k], first);
+#define EW_STORE_COLUMN(k) \
+	EW_STORE(tile + (c + k) * EW_ROWS, moved ? EW_SUB(column[k], first) : column[k]);
+EW_ATTRIBUTE EW_INLINE void EW_ISA(gather_any)(const EW_REAL *from, const ew_ring_lanes *lanes,
+	const EW_REAL *lengths, int moved, EW_REAL *tile)
 {
-	const EW_VECTOR lengths = EW_LOAD(length);
-	EW_VECTOR column[EW_COLUMNS], first, origin = EW_SPLAT(0);
-	size_t c = 0;
+	const size_t longest = lanes->longest;
+	const size_t even = lanes->shortest == longest ? EW_TILE : lanes->shortest;
+	const int32_t *s = lanes->start;
+	const size_t start[EW_ROWS] = EW_STARTS(s);
+	EW_VECTOR column[EW_COLUMNS], first;
 	EW_ISA(block)(from, start, column);
 	first = column[0];
+	for (size_t c = 0; c < longest; c += EW_COLUMNS) {
+		EW_ISA(block)(from + c, start, column);
+		if (c + EW_COLUMNS > even) {
+			EW_EACH(EW_SELECT_COLUMN)
+		}
+		EW_EACH(EW_STORE_COLUMN)
+	}
+	first = moved ? EW_SUB(first, first) : first;
+	EW_STORE(tile + longest * EW_ROWS, first);
+	EW_STORE(tile + (longest + 1) * EW_ROWS, first);
+}
+#undef EW_SELECT_COLUMN
+#undef EW_STORE_COLUMN
+
+EW_ATTRIBUTE static void EW_ISA(gather)(const EW_REAL *from, const ew_ring_lanes *lanes,
+	const EW_REAL *lengths, int moved, EW_REAL *tile)
+{
 	if (moved)
-		origin = first;
-	for (; c + EW_COLUMNS <= shortest; c += EW_COLUMNS) {
-		EW_ISA(block)(from + c, start, column);
-		for (size_t k = 0; k < EW_COLUMNS; ++k)
-			EW_STORE(tile + (c + k) * width, EW_SUB(column[k], origin));
-	}
-	for (; c < longest; c += EW_COLUMNS) {
-		EW_ISA(block)(from + c, start, column);
-		for (size_t k = 0; k < EW_COLUMNS; ++k)
-			EW_STORE(tile + (c + k) * width, EW_SUB(EW_SELECT(lengths,
-				EW_SPLAT((EW_REAL)(c + k)), column[k], first), origin));
-	}
-	EW_STORE(tile + longest * width, EW_SUB(first, origin));
+		EW_ISA(gather_any)(from, lanes, lengths, 1, tile);
+	else
+		EW_ISA(gather_any)(from, lanes, lengths, 0, tile);
 }
 
-#define EW_GATHER(width) \
-EW_ATTRIBUTE static void EW_GATHER_NAME(width)(const EW_REAL *from, const size_t *start, \
-	const EW_REAL *length, size_t shortest, size_t longest, int moved, \
-	EW_REAL *tile) \
-{ \
-	for (size_t row = 0; row < width; row += EW_ROWS) \
-		EW_ISA(gather)(from, start + row, length + row, shortest, longest, width, \
-			moved, tile + row); \
-}
-#define EW_GATHER_NAME(width) EW_ISA(gather_##width)
-EW_WIDTHS
+static const EW_LOCAL(columns) EW_ISA(columns) = { EW_ROWS, EW_ISA(move), EW_ISA(gather) };
 
-#undef EW_GATHER
-#undef EW_GATHER_NAME
 #undef EW_ISA
 #undef EW_VECTOR
 #undef EW_ATTRIBUTE
 #undef EW_ROWS
+#undef EW_STARTS
 #undef EW_COLUMNS
-#undef EW_WIDTHS
+#undef EW_EACH
 #undef EW_LOAD
 #undef EW_STORE
 #undef EW_SPLAT

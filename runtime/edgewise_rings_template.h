@@ -2,8 +2,8 @@
  *
  * The items of a ring (its edges, or for the vertex form all vertices but the first) are numbered
  * from 0; item i goes to lane i mod L, and where a ring has two turns, to accumulator set
- * i / L mod 2. L is 1 for rings of fewer than EW_SHORT vertices, else EW_WIDTH; a last vertex that
- * is the first one again does not count. Kernels run on the
+ * i / L mod 2. L is 1 for rings of fewer than EW_SHORT vertices, not counting a last vertex that is
+ * the first one again, else EW_WIDTH. Kernels run on the
  * user's arrays as long as an item does not reach past the last vertex; the rest, and everything
  * if the vertices must be moved or taken apart, goes through a small buffer, beginning at a
  * multiple of L times turns, so that this does not change the result. Float lanes are flushed to
@@ -71,7 +71,8 @@ static void EW_LOCAL(stage)(const EW_LOCAL(vertices) *v, size_t start, size_t co
 static void EW_LOCAL(run_staged)(EW_RUN *run, const EW_LOCAL(vertices) *v, int window,
 	const EW_REAL *origin, size_t start, size_t end, EW_REAL *sum)
 {
-	EW_REAL x[EW_STAGE + 2], y[EW_STAGE + 2];
+	EW_ALIGNED EW_REAL x[EW_STAGE + 2];
+	EW_ALIGNED EW_REAL y[EW_STAGE + 2];
 	while (start < end) {
 		size_t items = end - start < EW_STAGE ? end - start : (size_t)EW_STAGE;
 		EW_LOCAL(stage)(v, start, items + (size_t)window - 1, x, y);
@@ -84,7 +85,8 @@ static void EW_LOCAL(run_staged)(EW_RUN *run, const EW_LOCAL(vertices) *v, int w
 static void EW_LOCAL(run_short)(EW_RUN *run, const EW_LOCAL(vertices) *v,
 	const ew_ring_shape *shape, const EW_REAL *origin, double *total)
 {
-	EW_REAL x[EW_SHORT + 2], y[EW_SHORT + 2], sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
+	EW_REAL x[EW_SHORT + 2], y[EW_SHORT + 2];
+	EW_ALIGNED EW_REAL sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
 	memset(sum, 0, (size_t)shape->accumulators * EW_WIDTH * sizeof *sum);
 	EW_LOCAL(stage)(v, 0, v->n + 1, x, y);
 	run(x, y, origin, 1, 1, v->n + 2 - (size_t)shape->window, sum);
@@ -100,7 +102,7 @@ static void EW_LOCAL(run_lanes)(EW_RUN *run, const EW_LOCAL(vertices) *v,
 	const size_t reach = (size_t)shape->window - 1, items = v->n + 1 - reach;
 	const size_t step = (size_t)shape->turns * EW_WIDTH;
 	const size_t direct = v->moved || v->stride != 1 ? 0 : (v->n - reach) / step * step;
-	EW_REAL sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
+	EW_ALIGNED EW_REAL sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
 	memset(sum, 0, cells * sizeof *sum);
 	memset(wide, 0, cells * sizeof *wide);
 	for (size_t start = 0; start < items; start += EW_BLOCK) {
@@ -122,7 +124,7 @@ static void EW_LOCAL(run_ring)(int id, const EW_LOCAL(vertices) *v, double *tota
 	const ew_ring_shape *shape = &ew_ring_shapes[id];
 	EW_RUN *run = EW_LOCAL(kernel)(id);
 	double wide[EW_MAX_ACCUMULATORS * EW_WIDTH];
-	EW_REAL origin[EW_WIDTH];
+	EW_ALIGNED EW_REAL origin[EW_WIDTH];
 	for (int l = 0; l < EW_WIDTH; ++l)
 		origin[l] = EW_LOCAL(vertex_x)(v, 0);
 	if (v->n < EW_SHORT) {
@@ -164,17 +166,17 @@ static void EW_LOCAL(integrate)(int id, const EW_LOCAL(vertices) *v, double *out
 	ew_ring_shapes[id].finish(total, out, 1);
 }
 
-/* 1 if the last vertex is the first one again. */
-static size_t EW_LOCAL(is_closed)(const EW_REAL *x, const EW_REAL *y, size_t stride, size_t n)
+/* Is the last vertex the first one again? */
+static int EW_LOCAL(is_closed)(const EW_REAL *x, const EW_REAL *y, size_t stride, size_t n)
 {
-	return n > 1 && x[0] == x[(n - 1) * stride] && y[0] == y[(n - 1) * stride];
+	return x[0] == x[(n - 1) * stride] && y[0] == y[(n - 1) * stride];
 }
 
 static EW_LOCAL(vertices) EW_LOCAL(plain)(const EW_REAL *x, const EW_REAL *y, size_t stride,
 	size_t n)
 {
-	EW_LOCAL(vertices) v = { x, y, stride, n - EW_LOCAL(is_closed)(x, y, stride, n), 0,
-		0, 0, 0, 0, 1 };
+	EW_LOCAL(vertices) v = { x, y, stride, n, 0, 0, 0, 0, 0, 1 };
+	v.n -= n == EW_SHORT && EW_LOCAL(is_closed)(x, y, stride, n);
 	return v;
 }
 

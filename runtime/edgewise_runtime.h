@@ -17,25 +17,41 @@ enum {
 	EW_CACHED = 1 << 22          /* bytes of results that are worth keeping in the caches */
 };
 
+/* Short rings side by side: where each begins, the least and the most vertices. */
+typedef struct {
+	const int32_t *start;
+	size_t shortest, longest;
+} ew_ring_lanes;
+
 /* What a target can do with coordinates by vectors (edgewise_columns.c).
  *
  * move: to[i] = from[i * stride] - origin, stride 1 or 2.
- * gather: `width` short rings side by side, tile[c * width + l] is coordinate c of ring l, and its
- * first one again for c >= length[l]; columns 0 .. longest are written, up to EW_TILE may be.
- * With `moved`, less the first coordinate of each ring. Reads from[start[l]] and on, 3
- * places past `longest` at most. NULL for scalar targets. */
-typedef struct {
-	size_t width;
-	void (*move)(const double *from, size_t stride, double origin, size_t count, double *to);
-	void (*gather)(const double *from, const size_t *start, const double *length,
-		size_t shortest, size_t longest, int moved, double *tile);
-} ew_ring_columns;
-typedef struct {
-	size_t width;
-	void (*move)(const float *from, size_t stride, float origin, size_t count, float *to);
-	void (*gather)(const float *from, const size_t *start, const float *length,
-		size_t shortest, size_t longest, int moved, float *tile);
-} ew_ring_columnsf;
+ * gather: tile[c * width + l] is coordinate c of the ring of lane l, and its first one again for
+ * c >= lengths[l] (not read if shortest is longest); less the first one with `moved`. Columns 0 .. longest + 1 are written, up to
+ * EW_TILE may be; vertices from start[l] to 3 places past `longest` may be read. NULL for scalar
+ * targets, whose width is 1. */
+#define EW_COLUMNS_TYPE(f, real) \
+typedef struct { \
+	size_t width; \
+	void (*move)(const real *from, size_t stride, real origin, size_t count, real *to); \
+	void (*gather)(const real *from, const ew_ring_lanes *lanes, const real *lengths, \
+		int moved, real *tile); \
+} ew_ring_columns##f;
+EW_COLUMNS_TYPE(, double)
+EW_COLUMNS_TYPE(f, float)
+#undef EW_COLUMNS_TYPE
+
+/* EW_ALIGNED: to a cache line, which is also the widest register. */
+#if defined(__GNUC__) || defined(__clang__)
+#define EW_ALIGNED __attribute__((aligned(64)))
+#define EW_INLINE __attribute__((always_inline)) static inline
+#elif defined(_MSC_VER)
+#define EW_ALIGNED __declspec(align(64))
+#define EW_INLINE static __forceinline
+#else
+#define EW_ALIGNED
+#define EW_INLINE static inline
+#endif
 
 #ifdef __cplusplus
 extern "C" {
