@@ -193,7 +193,7 @@ static void EW_LOCAL(begin)(EW_LOCAL(batch) *b, int degree, int moved, const EW_
 	b->rings = rings;
 	b->id = EW_RING_MOMENTS_0 + degree;
 	b->moved = moved;
-	b->run = EW_LOCAL(kernel)(b->id);
+	b->run = EW_LOCAL(kernel)(b->id, target);
 	b->finish = ew_ring_finish_columns(target, degree, &b->finished);
 	b->by = EW_LOCAL(by_columns)(target);
 	b->most = b->by->gather ? EW_SHORT : 3;

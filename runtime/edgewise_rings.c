@@ -48,6 +48,12 @@ static void ew_ring_translate(int degree, double dx, double dy, double *a)
 }
 #endif
 
+/* The scalar target that gives the bits of this one, if it was asked for. */
+static unsigned ew_ring_scalar(unsigned used)
+{
+	return EW_BUILD_FMA && used != EW_PORTABLE ? (unsigned)EW_FMA : used;
+}
+
 #ifdef EW_MAX_DEGREE
 /* What finishes the moments of `count` rings side by side. */
 static ew_ring_finish *ew_ring_finish_columns(unsigned used, int degree, size_t *count)

@@ -19,14 +19,14 @@ typedef struct {
 	EW_REAL cx, cy, dx, dy, scale;
 } EW_LOCAL(vertices);
 
-static EW_RUN *EW_LOCAL(kernel)(int id)
+static EW_RUN *EW_LOCAL(kernel)(int id, unsigned used)
 {
 #define EW_ROW(id, kernel, f, a) kernel,
 #define EW_TABLE(TARGET, target, doubles) \
 	static EW_RUN *const target[] = { EW_LIST(TARGET)(EW_ROW) };
 #define EW_CASE(TARGET, target, doubles) case EW_##TARGET: return target[id];
 	EW_TARGETS(EW_TABLE)
-	switch (ew_cpu_target()) {
+	switch (used) {
 	EW_TARGETS(EW_CASE)
 	default: return NULL;          /* no such target is ever in use */
 	}
@@ -81,10 +81,12 @@ static void EW_LOCAL(run_staged)(EW_RUN *run, const EW_LOCAL(vertices) *v, int w
 	}
 }
 
-/* A short ring: all items in lane 0. */
-static void EW_LOCAL(run_short)(EW_RUN *run, const EW_LOCAL(vertices) *v,
-	const ew_ring_shape *shape, const EW_REAL *origin, double *total)
+/* A short ring: all items in lane 0, by a scalar kernel, since vectors would be left empty. */
+static void EW_LOCAL(run_short)(int id, const EW_LOCAL(vertices) *v, const EW_REAL *origin,
+	double *total)
 {
+	const ew_ring_shape *shape = &ew_ring_shapes[id];
+	EW_RUN *run = EW_LOCAL(kernel)(id, ew_ring_scalar(ew_cpu_target()));
 	EW_REAL x[EW_SHORT + 2], y[EW_SHORT + 2];
 	EW_ALIGNED EW_REAL sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
 	memset(sum, 0, (size_t)shape->accumulators * EW_WIDTH * sizeof *sum);
@@ -122,16 +124,15 @@ static void EW_LOCAL(run_lanes)(EW_RUN *run, const EW_LOCAL(vertices) *v,
 static void EW_LOCAL(run_ring)(int id, const EW_LOCAL(vertices) *v, double *total)
 {
 	const ew_ring_shape *shape = &ew_ring_shapes[id];
-	EW_RUN *run = EW_LOCAL(kernel)(id);
 	double wide[EW_MAX_ACCUMULATORS * EW_WIDTH];
 	EW_ALIGNED EW_REAL origin[EW_WIDTH];
 	for (int l = 0; l < EW_WIDTH; ++l)
 		origin[l] = EW_LOCAL(vertex_x)(v, 0);
 	if (v->n < EW_SHORT) {
-		EW_LOCAL(run_short)(run, v, shape, origin, total);
+		EW_LOCAL(run_short)(id, v, origin, total);
 		return;
 	}
-	EW_LOCAL(run_lanes)(run, v, shape, origin, wide);
+	EW_LOCAL(run_lanes)(EW_LOCAL(kernel)(id, ew_cpu_target()), v, shape, origin, wide);
 	for (int k = 0; k < shape->accumulators; ++k) {
 		double *lane = wide + k * EW_WIDTH;
 		for (int half = EW_WIDTH / 2; half > 0; half /= 2)
