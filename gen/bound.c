@@ -44,6 +44,8 @@ static Weight weigh(const Dag *dag, const Node *node, const Weight *done, const 
 			return inputs[accumulator];
 		return (Weight){ poly_mono(rat(1, 1), node->input), poly_zero(), 0 };
 	}
+	if (node->op == OP_ABS)
+		return done[node->arg[0]];
 	Weight a = done[node->arg[0]], b = done[node->arg[1]];
 	if (node->op == OP_MUL) {
 		Weight p = product(a, b);

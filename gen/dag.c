@@ -175,6 +175,11 @@ Ref dag_mul(Dag *dag, Ref a, Ref b)
 	return is_one(dag, b) ? a : dag_node(dag, OP_MUL, a, b, NONE);
 }
 
+Ref dag_abs(Dag *dag, Ref a)
+{
+	return dag_node(dag, OP_ABS, a, NONE, NONE);
+}
+
 Ref dag_scale(Dag *dag, Rat factor, Ref a)
 {
 	return dag_mul(dag, dag_const(dag, factor), a);
@@ -226,7 +231,9 @@ Poly dag_expand_node(const Node *node, const Poly *done)
 	case OP_ADD:   return poly_add(a, b);
 	case OP_SUB:   return poly_sub(a, b);
 	case OP_MUL:   return poly_mul(a, b);
+	case OP_ABS:   return poly_abs(a);
 	case OP_FMA:   return poly_add(poly_mul(a, b), c);
+	case OP_ERROR:
 	case OP_FMS:   return poly_sub(poly_mul(a, b), c);
 	}
 	bug("operation %d has no meaning as a polynomial", node->op);
@@ -258,9 +265,11 @@ static Ref mirror(Dag *dag, const Node *node, const Ref *image, const int *sign,
 				return dag_var(dag, swapped[var]);
 		return NONE;
 	}
+	if (op_operands(node->op) != 2)
+		return NONE;
 	Ref a = image[node->arg[0]], b = image[node->arg[1]];
 	int sa = sign[node->arg[0]], sb = sign[node->arg[1]];
-	if (a == NONE || b == NONE || op_operands(node->op) != 2)
+	if (a == NONE || b == NONE)
 		return NONE;
 	*result_sign = node->op == OP_MUL ? sa * sb : sa;
 	if (node->op != OP_MUL && sa != sb)

@@ -160,6 +160,12 @@ static int is_inline(const Printer *printer, Ref ref)
 	return printer->style->nested && !node->name && printer->uses[ref] == 1;
 }
 
+/* An output that nothing else uses goes straight to its place; others get a name first. */
+static int is_last(const Printer *printer, Ref ref)
+{
+	return output_of(printer->program->dag, ref) >= 0 && printer->uses[ref] == 1;
+}
+
 /* Names for all operations that get a statement, in the order of evaluation. */
 static void name_values(Printer *printer)
 {
@@ -180,7 +186,7 @@ static void name_values(Printer *printer)
 	for (int at = 0; at < program->count; ++at) {
 		Ref ref = program->order[at];
 		const char *name = dag->node[ref].name;
-		if (is_inline(printer, ref) || output_of(dag, ref) >= 0)
+		if (is_inline(printer, ref) || is_last(printer, ref))
 			continue;
 		if (!name || is_taken(printer, dag->count, name))
 			name = format("t%d", temporaries++);
@@ -279,7 +285,7 @@ static void add_value(Text *text, const Printer *printer, Ref ref)
 {
 	const Style *style = printer->style;
 	const char *type = style->precision->real;
-	int k = output_of(printer->program->dag, ref);
+	int k = is_last(printer, ref) ? output_of(printer->program->dag, ref) : -1;
 	char *value = expression(printer, ref, 1);
 	if (style->vector)
 		type = style->vector->type[style->precision->is_float];
@@ -300,8 +306,8 @@ void emit_program(Text *text, const Program *program, const Style *style)
 		if (output_of(dag, ref) >= 0 || !is_inline(&printer, ref))
 			add_value(text, &printer, ref);
 	}
-	for (int k = 0; k < dag->outs; ++k)          /* an output that is a bare accumulator */
-		if (op_operands(dag->node[dag->out[k]].op) == 0)
+	for (int k = 0; k < dag->outs; ++k)          /* a bare accumulator, or used elsewhere too */
+		if (!is_last(&printer, dag->out[k]) || op_operands(dag->node[dag->out[k]].op) == 0)
 			emit_statement(text, style->indent, format("%s%s;",
 				format(style->output, style->first + k),
 				expression(&printer, dag->out[k], 0)));

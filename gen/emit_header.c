@@ -75,6 +75,18 @@ static const Entry rings[] = {
 	"int ew_central_moments@(int degree, const REAL *x, const REAL *y, size_t n, REAL c[2], "
 	"REAL *out)" },
 	{ has_area,
+	"The moments of ew_moments and, for each, a bound of its error: |out - exact| <= bound, "
+	"rigorously: gamma_K times the sum of all terms with positive sign, with the roundings and "
+	"underflows of the bound itself included. Infinity if that says nothing (overflow, NaN).",
+	"int ew_moments_bounded@(int degree, const REAL *x, const REAL *y, size_t n, REAL *out, "
+	"REAL *bound)" },
+	{ has_area,
+	"Area about (0,0) as if summed in twice the precision (Dot2: Ogita, Rump, Oishi 2005): "
+	"faithful as long as sum |x_i y_(i+1)| + |x_(i+1) y_i| <= |2 area| 2^52 / (4 n^2) "
+	"(float: 2^23 / (4 n^2)) and products neither underflow nor overflow (portable: coordinates "
+	"below 2^996, float 2^115).",
+	"REAL ew_area_compensated@(const REAL *x, const REAL *y, size_t n)" },
+	{ has_area,
 	"Areas of many rings; ring i has the vertices offsets[i] .. offsets[i+1] - 1, as in GeoArrow "
 	"(rings + 1 offsets). out[i] is what ew_area gives, bit for bit. Negative or decreasing "
 	"offsets: EW_BAD_OFFSETS, out untouched.",

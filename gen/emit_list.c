@@ -120,12 +120,27 @@ static void add_ids(Text *text, const Kernels *kernels)
 	text_add(text, "\n");
 }
 
-static const Ring *ring_of(const Kernels *kernels, const Edge *edge)
+static const Ring *ring_named(const Kernels *kernels, const char *name)
 {
 	for (int i = 0; i < kernels->rings; ++i)
-		if (strcmp(kernels->ring[i].name, edge->what->name) == 0)
+		if (strcmp(kernels->ring[i].name, name) == 0)
 			return &kernels->ring[i];
-	bug("no ring kernel for %s", edge->what->name);
+	bug("no ring kernel for %s", name);
+}
+
+static void add_bounds(Text *text, const Request *request, const Kernels *kernels)
+{
+	text_add(text, "\n/* X(k, r, products, wk, wr), for the moments to degree 0, 1, ...: k of "
+		"each result, r and products\n * per item, k and r of their magnitudes */\n"
+		"#define EW_BOUNDS(X)");
+	for (int degree = 0; degree <= request->moments; ++degree) {
+		const Ring *ring = ring_named(kernels, format("moments_%d", degree));
+		const Ring *terms = ring_named(kernels, format("magnitudes_%d", degree));
+		text_add(text, " \\\n\tX(ew_ring_%s_k, %d, %d, %d, %d)", ring->name,
+			ring->worst.repeat, ring->portable.cost.fma, terms->worst.k,
+			terms->worst.repeat);
+	}
+	text_add(text, "\n");
 }
 
 static void add_precision(Text *text, const Request *request, const Kernels *kernels,
@@ -139,7 +154,7 @@ static void add_precision(Text *text, const Request *request, const Kernels *ker
 		const Edge *edge = &kernels->edge[i];
 		if (edge->what->m < 0)
 			text_add(text, " \\\n\tX(ew_%s%s, %s, ew_line_%s%s, %d)", edge->what->name,
-				precision->suffix, ring_id(ring_of(kernels, edge)),
+				precision->suffix, ring_id(ring_named(kernels, edge->what->name)),
 				edge->what->name, precision->suffix, edge->bound.k);
 	}
 	text_add(text, "\n");
@@ -188,6 +203,9 @@ static void add_targets(Text *text, const Request *request, const Kernels *kerne
 		"#define EW_TARGETS(X)%s\n", text_take(&all));
 }
 
+/* 2^ceil(t/2) + 1: splits t bits in two halves. */
+static const char *const SPLITTER[] = { "134217729.0", "4097.0f" };
+
 static void add_types(Text *text, const Request *request)
 {
 	text_add(text, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n"
@@ -215,13 +233,25 @@ static void add_types(Text *text, const Request *request)
 				"\tfor (size_t i = 0; i < width; ++i)\n"
 				"\t\tpad[i] = i < rest ? from[i] : 0;\n"
 				"\treturn pad;\n}\n", real, suffix, real, real);
+		if (request->precisions & precisions[p].bit)
+			text_add(text, "/* a b - p exactly, p = a b rounded (Dekker 1971); a and b "
+				"below 2^%d. */\n"
+				"static inline %s ew_ring_lost%s(%s a, %s b, %s p)\n{\n"
+				"\tconst %s ta = %s * a, tb = %s * b;\n"
+				"\tconst %s ha = ta - (ta - a), hb = tb - (tb - b);\n"
+				"\tconst %s la = a - ha, lb = b - hb;\n"
+				"\treturn ((ha * hb - p) + ha * lb + la * hb) + la * lb;\n}\n",
+				precisions[p].is_float ? 115 : 996, real, suffix, real, real, real,
+				real, SPLITTER[p], SPLITTER[p], real, real);
 	}
 	text_add(text, "/* From sum[accumulator * stride] to out[output * stride]; those of a "
 		"vector target take as many\n * neighbours as a register holds. */\n"
 		"typedef void ew_ring_finish(const double *sum, double *out, size_t stride);\n\n"
 		"#define EW_DECLARE(id, window, turns, accumulators, outputs, finish) "
 		"ew_ring_finish finish;\n"
-		"EW_RINGS_SHAPES(EW_DECLARE)\n#undef EW_DECLARE\n");
+		"EW_RINGS_SHAPES(EW_DECLARE)\n#undef EW_DECLARE\n"
+		"#define EW_DECLARE(k, r, products, wk, wr) extern const short k[];\n"
+		"EW_BOUNDS(EW_DECLARE)\n#undef EW_DECLARE\n");
 	for (int p = 0; p < precision_count; ++p)
 		for (int t = 0; t < target_count; ++t) {
 			const Target *target = &targets[t];
@@ -259,6 +289,7 @@ void emit_list(Files *files, const Request *request, const Kernels *kernels)
 	for (int p = 0; p < precision_count; ++p)
 		if (request->precisions & precisions[p].bit)
 			add_precision(text, request, kernels, &precisions[p]);
+	add_bounds(text, request, kernels);
 	add_targets(text, request, kernels);
 	add_types(text, request);
 	text_add(text, "\n#endif\n");
@@ -311,7 +342,7 @@ static void add_rings(Text *text, const Request *request, const Kernels *kernels
 		if (request->targets & TARGET_FMA)
 			add_count(text, "fma", &ring->fused);
 		text_add(text, ", \"repeat\": %d, \"k\": [", ring->worst.repeat);
-		for (int j = 0; j < ring->outputs; ++j)
+		for (int j = 0; j < ring->outputs && ring->bound; ++j)
 			text_add(text, "%s%d", j ? ", " : "", ring->bound[j].k);
 		text_add(text, "]}");
 	}

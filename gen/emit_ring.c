@@ -11,13 +11,17 @@
 
 #include <string.h>
 
-static int is_moments(const Ring *ring)
+static int is_family(const Ring *ring, const char *family)
 {
-	return strcmp(ring->family, "moments") == 0;
+	return strcmp(ring->family, family) == 0;
 }
 
 static char *describe(const Ring *ring)
 {
+	if (is_family(ring, "compensated"))
+		return format("area, sum and what its roundings lost");
+	if (is_family(ring, "magnitudes"))
+		return format("all terms of x^m y^n, m + n <= %d, with positive sign", ring->m);
 	if (ring->n == 0 && ring->outputs > 1)
 		return format("all moments of x^m y^n, m + n <= %d", ring->m);
 	if (ring->m < 0)
@@ -103,10 +107,12 @@ static void add_kernel(Text *text, const Ring *ring, const Target *target,
 	text_add(text, "\t}\n}\n");
 }
 
-/* All moments of a degree and single integrands go to files of their own. */
+/* Each family goes to files of its own, both kinds of integrands together. */
 static const char *group_of(const Ring *ring)
 {
-	return is_moments(ring) ? "moments" : "integrands";
+	if (is_family(ring, "moments"))
+		return "moments";
+	return is_family(ring, "monomial") || is_family(ring, "polynomial") ? "integrands" : "trust";
 }
 
 static Text *open_file(Files *files, const Request *request, const Target *target,
@@ -116,8 +122,10 @@ static Text *open_file(Files *files, const Request *request, const Target *targe
 	emit_banner(text, name, purpose, request);
 	text_add(text, "\n#include \"edgewise.h\"\n#include \"edgewise_kernels.h\"\n");
 	if (target && target->guard)
-		text_add(text, "\n#if %s\n\n#include <%s>\n", target->guard,
-			target->vector ? target->vector->header : "math.h");
+		text_add(text, "\n#if %s\n", target->guard);
+	if (target)
+		text_add(text, "\n#include <%s>\n", target->vector ? target->vector->header
+			: "math.h");
 	return text;
 }
 
@@ -155,7 +163,7 @@ static void emit_target(Files *files, const Request *request, const Kernels *ker
 
 int emit_finishes_columns(const Ring *ring)
 {
-	return is_moments(ring);
+	return is_family(ring, "moments");
 }
 
 /* The same for rings side by side, by vectors of double. */
@@ -192,6 +200,13 @@ static void emit_finish(Files *files, const Request *request, const Kernels *ker
 			"size_t stride)\n{\n", ring->name);
 		emit_program(text, &ring->finish, &style);
 		text_add(text, "}\n");
+		if (!is_family(ring, "moments"))
+			continue;
+		text_add(text, "\nconst short ew_ring_%s_k[%d] = {", ring->name, ring->outputs);
+		for (int j = 0; j < ring->outputs; ++j)
+			text_add(text, "%s%s%d", j ? "," : "", j % 16 ? " " : "\n\t",
+				ring->bound[j].k);
+		text_add(text, "\n};\n");
 	}
 }
 

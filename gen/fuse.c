@@ -31,6 +31,10 @@ static Ref fuse_node(const Fusion *f, const Node *node)
 		return dag_input(f->to, node->input);
 	if (node->op == OP_CONST)
 		return dag_const(f->to, node->value);
+	if (node->op == OP_ABS)
+		return dag_abs(f->to, f->map[a]);
+	if (node->op == OP_ERROR)
+		return dag_node(f->to, OP_FMS, f->map[a], f->map[b], f->map[node->arg[2]]);
 	if (node->op == OP_ADD && only_here(f, b))
 		return fused(f, OP_FMA, b, a);
 	if (node->op == OP_ADD && only_here(f, a))

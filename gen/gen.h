@@ -125,6 +125,7 @@ typedef struct {
 	Integrand *monomial;   int monomials;   /* single-edge functions and single-moment rings */
 	Integrand *polynomial; int polynomials;
 	unsigned precisions, targets;
+	const char *scheme;                  /* preferred where it applies, or NULL */
 	const char *prefix;                  /* NULL: ew and edgewise */
 	const char *command;                 /* canonical command line of this emission */
 } Request;
@@ -194,6 +195,7 @@ Ref  dag_add(Dag *dag, Ref a, Ref b);        /* the smart constructors drop 0 an
 Ref  dag_sub(Dag *dag, Ref a, Ref b);
 Ref  dag_mul(Dag *dag, Ref a, Ref b);
 Ref  dag_scale(Dag *dag, Rat factor, Ref a);
+Ref  dag_abs(Dag *dag, Ref a);
 Ref  dag_name(Dag *dag, Ref a, const char *name);   /* the first name given stays; returns a */
 void dag_out(Dag *dag, Ref root);
 void dag_accumulate(Dag *dag, Ref value);    /* next accumulator += value */
@@ -238,14 +240,22 @@ Dag *moments_shared(void);                   /* degree 2 */
 Dag *moments_even_power(int degree);         /* 0 .. 4 */
 Dag *moments_recurrence(int degree);         /* 1 and more */
 Dag *moments_matrix(const Integral *want, int degree);
+Dag *moments_vertex(Rat value);              /* a constant integrand */
+/* Sums of all terms with positive sign, for the error bound of the moments to a degree. */
+Dag *moments_magnitudes(int degree);
+Integral moments_vertex_magnitude(void);     /* what degree 0 of them is */
+
+/* ---- compensated.c: the area in twice the precision ------------------------------------------ */
+
+Dag *compensated_area(void);
 
 /* ---- scheme.c: ways to evaluate, and the choice by cost -------------------------------------- */
 
 typedef struct { int fma, add, mul; } Count; /* FMA pipe (mul included), adder; mul alone */
 
 Dag *scheme_edge(const Integral *want);      /* one edge by the matrix, ends interchangeable */
-/* Accumulators of a ring: the cheapest that applies. */
-Dag *scheme_ring(const Integral *want, int moments);
+/* Accumulators of a ring: the preferred scheme if it applies, else the cheapest. */
+Dag *scheme_ring(const Integral *want, int moments, const char *preferred);
 Dag *scheme_finish(const Dag *ring);         /* accumulator sums -> moments */
 const char *const *scheme_names(void);       /* ends with NULL */
 
@@ -282,7 +292,7 @@ typedef struct {                             /* one single-edge function */
 
 typedef struct {                             /* one family member that runs over rings */
 	const char *name;                    /* moments_8, x4y2, soft */
-	const char *family;                  /* moments, monomial, polynomial */
+	const char *family;                  /* moments, magnitudes, compensated, monomial, polynomial */
 	int m, n;                            /* degree 0 of a family, exponents, -1 -1 */
 	int outputs, accumulators, turns, window;    /* accumulators of all turns */
 	const char *scheme;

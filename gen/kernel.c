@@ -76,10 +76,8 @@ static void worsen(Bound *worst, Bound bound)
 	worst->repeat = bound.repeat > worst->repeat ? bound.repeat : worst->repeat;
 }
 
-/* `moments` is the degree of a family of all moments, or -1 for one integrand. */
-static void build_ring(Ring *ring, const Integral *want, int moments, const Dump *dump)
+static void build_ring(Ring *ring, const Dag *dag, const Integral *want, const Dump *dump)
 {
-	Dag *dag = scheme_ring(want, moments);
 	dump_dag(dump, 'd', ring->name, dag);
 	prove_dag(dag, want, ring->outputs, "scheme");
 	Dag *fused = fuse(dag);
@@ -90,13 +88,19 @@ static void build_ring(Ring *ring, const Integral *want, int moments, const Dump
 	Dag *finish = scheme_finish(dag);
 	ring->finish = schedule(finish);
 	prove_finish(&ring->finish, dag);
-	ring->bound = bound_ring(dag, finish, want, ring->outputs);
-	for (int j = 0; j < ring->outputs; ++j)
-		worsen(&ring->worst, ring->bound[j]);
 	ring->accumulators = dag->outs * dag->turns;
 	ring->turns = dag->turns;
 	ring->window = dag->window;
 	ring->scheme = dag->scheme;
+}
+
+/* All but the compensated area, whose bound is not a number of roundings. */
+static void build_bounded_ring(Ring *ring, const Dag *dag, const Integral *want, const Dump *dump)
+{
+	build_ring(ring, dag, want, dump);
+	ring->bound = bound_ring(dag, ring->finish.dag, want, ring->outputs);
+	for (int j = 0; j < ring->outputs; ++j)
+		worsen(&ring->worst, ring->bound[j]);
 }
 
 static Ring *next_ring(Kernels *kernels, const char *name, const char *family, int m, int n,
@@ -107,13 +111,14 @@ static Ring *next_ring(Kernels *kernels, const char *name, const char *family, i
 	return ring;
 }
 
-static void build_integrand(Kernels *all, const Integrand *what, const Dump *dump)
+static void build_integrand(Kernels *all, const Integrand *what, const char *scheme,
+	const Dump *dump)
 {
 	Edge edge = dumped_edge(what, dump);
 	all->edge[all->edges++] = edge;
 	const char *family = what->m < 0 ? "polynomial" : "monomial";
 	Ring *ring = next_ring(all, what->name, family, what->m, what->n, 1);
-	build_ring(ring, &edge.integral, -1, dump);
+	build_bounded_ring(ring, scheme_ring(&edge.integral, -1, scheme), &edge.integral, dump);
 }
 
 /* Moments come in the order of EW_INDEX,
@@ -127,26 +132,45 @@ static Integral *all_integrals(const Request *request)
 	return want;
 }
 
+/* All moments to each degree, the magnitudes that bound them, and the compensated area. */
+static void build_families(Kernels *all, const Request *request, const Dump *dump,
+	void (*progress)(int done, int of), int rings)
+{
+	Integral *want = all_integrals(request), *terms = all_integrals(request);
+	for (int degree = 0; degree <= request->moments; ++degree) {
+		const int outputs = (degree + 1) * (degree + 2) / 2;
+		progress(all->rings, rings);
+		build_bounded_ring(next_ring(all, format("moments_%d", degree), "moments", degree, 0,
+			outputs), scheme_ring(want, degree, request->scheme), want, dump);
+	}
+	for (int j = 0; j < (request->moments + 1) * (request->moments + 2) / 2; ++j)
+		terms[j].value = want[j].magnitude;
+	for (int degree = 0; degree <= request->moments; ++degree) {
+		const int outputs = (degree + 1) * (degree + 2) / 2;
+		const Integral vertex = moments_vertex_magnitude();
+		progress(all->rings, rings);
+		build_bounded_ring(next_ring(all, format("magnitudes_%d", degree), "magnitudes", degree, 0,
+			outputs), moments_magnitudes(degree), degree ? terms : &vertex, dump);
+	}
+	if (request->moments >= 0)
+		build_ring(next_ring(all, "compensated", "compensated", 0, 0, 1),
+			compensated_area(), want, dump);
+}
+
 Kernels build_kernels(const Request *request, void (*progress)(int done, int of),
 	const char *letters, Text *text)
 {
 	const Dump dump = { letters, text };
-	int edges = request->monomials + request->polynomials, rings = edges + request->moments + 1;
+	const int edges = request->monomials + request->polynomials;
+	const int rings = edges + 2 * (request->moments + 1) + (request->moments >= 0);
 	Kernels all = {
 		allocate((size_t)edges * sizeof(Edge)), 0, allocate((size_t)rings * sizeof(Ring)), 0
 	};
-	const Integral *want = all_integrals(request);
-	for (int degree = 0; degree <= request->moments; ++degree) {
-		progress(all.rings, rings);
-		int outputs = (degree + 1) * (degree + 2) / 2;
-		Ring *ring = next_ring(&all, format("moments_%d", degree), "moments", degree, 0,
-			outputs);
-		build_ring(ring, want, degree, &dump);
-	}
+	build_families(&all, request, &dump, progress, rings);
 	for (int i = 0; i < edges; ++i) {
 		progress(all.rings, rings);
 		build_integrand(&all, i < request->monomials ? &request->monomial[i]
-			: &request->polynomial[i - request->monomials], &dump);
+			: &request->polynomial[i - request->monomials], request->scheme, &dump);
 	}
 	progress(rings, rings);
 	return all;

@@ -32,6 +32,8 @@ static const char USAGE[] =
 	"(repeatable)\n"
 	"  --precision LIST       double,float (default: both)\n"
 	"  --targets LIST         portable,fma,avx2,avx512,neon (default: all; portable always)\n"
+	"  --scheme NAME          how rings are evaluated, where that scheme applies "
+	"(default: the cheapest)\n"
 	"  --prefix NAME          every symbol, macro and file name starts with NAME instead of "
 	"ew, edgewise\n"
 	"where to\n"
@@ -117,11 +119,19 @@ static int read_text(Options *o, const char *option, const char *value)
 	return 0;
 }
 
+static int schemes(void)
+{
+	int count = 0;
+	while (scheme_names()[count])
+		++count;
+	return count;
+}
+
 /* Options with a grammar; with `value` NULL it only says whether the option is one of them. */
 static int read_request(Options *o, const char *option, const char *value)
 {
 	static const char *const names[] = { "--max-degree", "--families", "--monomial",
-		"--polynomial", "--precision", "--targets" };
+		"--polynomial", "--precision", "--targets", "--scheme" };
 	Request *request = &o->request;
 	int which = 0;
 	while (which < LENGTH(names) && strcmp(option, names[which]) != 0)
@@ -154,6 +164,10 @@ static int read_request(Options *o, const char *option, const char *value)
 		break;
 	case 5:
 		request->targets = spec_list(option, value, target_names, TARGETS);
+		break;
+	case 6:
+		spec_list(option, value, scheme_names(), schemes());
+		request->scheme = value;
 		break;
 	}
 	return 1;
@@ -255,13 +269,10 @@ static void print_words(const char *title, const char *const *words, int count)
 
 static void print_list(void)
 {
-	int schemes = 0;
-	while (scheme_names()[schemes])
-		++schemes;
 	print_words("families", FAMILIES, LENGTH(FAMILIES));
 	print_words("targets", target_names, TARGETS);
 	print_words("precisions", PRECISIONS, LENGTH(PRECISIONS));
-	print_words("schemes", scheme_names(), schemes);
+	print_words("schemes", scheme_names(), schemes());
 }
 
 static void add_file(Files *files, const char *name, Text text)

@@ -8,6 +8,7 @@
  *   recurrence  h_mn = x0 h_(m-1,n) + y0 h_(m,n-1) + C(m+n,n) x1^m y1^n, times x0 y1 - x1 y0 from
  *               the start; the generating function of h is 1 / ((1 - x0 u - y0 v)(1 - x1 u - y1 v))
  *   matrix      every moment by its own coefficient matrix, power products shared
+ *   vertex      degree 0 and constants, about a local origin: one term per vertex
  *
  * None of these identities is trusted: proof.c expands what was built. */
 #include "gen.h"
@@ -28,6 +29,34 @@ static void finish_next(Dag *dag, int m, int n, Rat factor)
 {
 	Poly *form = &dag->finish[moment_index(m, n)];
 	*form = poly_add(*form, poly_mono(factor, mono_accumulator(dag->outs)));
+}
+
+static Dag *vertex_form(Rat value, int magnitude)
+{
+	Dag *dag = dag_new("vertex");
+	dag->window = 3;
+	dag->turns = 2;
+	Ref width = difference_of(dag, VAR_CX, VAR_X1, "width");
+	Ref height = difference_of(dag, VAR_Y0, VAR_Y2, "height");
+	Ref product = magnitude ? dag_mul(dag, dag_abs(dag, width), dag_abs(dag, height))
+		: dag_mul(dag, width, height);
+	finish_room(dag, 0);
+	finish_next(dag, 0, 0, rat_mul(value, rat(1, 2)));
+	dag_accumulate(dag, product);
+	return dag;
+}
+
+Dag *moments_vertex(Rat value)
+{
+	return vertex_form(value, 0);
+}
+
+Integral moments_vertex_magnitude(void)
+{
+	Poly width = poly_add(poly_var(VAR_X1), poly_var(VAR_CX));
+	Poly height = poly_add(poly_var(VAR_Y2), poly_var(VAR_Y0));
+	Poly all = poly_scale(poly_mul(width, height), rat(1, 2));
+	return (Integral){ all, poly_zero(), all };
 }
 
 /* Degree 2 with six accumulators:
@@ -215,16 +244,17 @@ static void recurrence_top_source(Recurrence *r, int m, int n)
 	dag_accumulate(r->dag, dag_mul(r->dag, factor, end));
 }
 
-Dag *moments_recurrence(int degree)
+/* `start` stands for x0 y1 - x1 y0. */
+static Dag *recurrence(Dag *dag, Leaves end, Ref start, int degree)
 {
 	Recurrence *r = allocate(sizeof *r);
-	r->dag = dag_new("recurrence");
+	r->dag = dag;
 	r->degree = degree;
-	r->end = ends(r->dag);
-	r->h[0][0] = r->w[0][0] = cross(r->dag);
-	finish_room(r->dag, degree);
-	finish_next(r->dag, 0, 0, rat(1, 2));
-	dag_accumulate(r->dag, r->h[0][0]);
+	r->end = end;
+	r->h[0][0] = r->w[0][0] = start;
+	finish_room(dag, degree);
+	finish_next(dag, 0, 0, rat(1, 2));
+	dag_accumulate(dag, start);
 	for (int d = 1; d < degree; ++d)
 		for (int n = 0; n <= d; ++n)
 			recurrence_inner(r, d - n, n);
@@ -232,7 +262,28 @@ Dag *moments_recurrence(int degree)
 		recurrence_top(r, degree - n, n);
 	for (int n = 1; n < degree; ++n)
 		recurrence_top_source(r, degree - n, n);
-	return r->dag;
+	return dag;
+}
+
+Dag *moments_recurrence(int degree)
+{
+	Dag *dag = dag_new("recurrence");
+	return recurrence(dag, ends(dag), cross(dag), degree);
+}
+
+/* The recurrence has no negative coefficient: with |x|, |y| and |x0 y1| + |x1 y0| it adds up
+ * all terms with positive sign. */
+Dag *moments_magnitudes(int degree)
+{
+	if (degree == 0)
+		return vertex_form(rat(1, 1), 1);
+	Dag *dag = dag_new("recurrence");
+	Leaves end = ends(dag);
+	for (int var = VAR_X0; var <= VAR_Y1; ++var)
+		end.ref[var] = dag_abs(dag, end.ref[var]);
+	Ref left = dag_mul(dag, end.ref[VAR_X0], end.ref[VAR_Y1]);
+	Ref right = dag_mul(dag, end.ref[VAR_X1], end.ref[VAR_Y0]);
+	return recurrence(dag, end, dag_add(dag, left, right), degree);
 }
 
 /* Every moment by its own coefficient matrix; hash-consing shares the power products. */

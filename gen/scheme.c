@@ -14,6 +14,8 @@
  *   vertex      constants alone: 1/2 (x_i - cx) (y_(i+1) - y_(i-1)), one product per vertex */
 #include "gen.h"
 
+#include <string.h>
+
 enum { FMA_WEIGHT = 4, ADD_WEIGHT = 1 };   /* additions have a pipe of their own on most machines */
 enum { WORST_BOUND = 512, DEAR = 1 << 30 };   /* k: at most 9 bits lost in the worst case */
 enum { EVEN_DEGREE = 6 };                  /* beyond it even powers cancel too much anyway */
@@ -40,10 +42,12 @@ static Count dag_count(const Dag *dag)
 	return count;
 }
 
-static int dag_cost(const Dag *dag)
+/* Cost as it will be after fusion; what is preferred costs less than anything else. */
+static int dag_cost(const Dag *dag, const char *preferred)
 {
-	Count count = dag_count(dag);
-	return FMA_WEIGHT * count.fma + ADD_WEIGHT * count.add;
+	Count count = dag_count(fuse(dag));
+	int cost = FMA_WEIGHT * count.fma + ADD_WEIGHT * count.add;
+	return preferred && strcmp(preferred, dag->scheme) == 0 ? cost - DEAR : cost;
 }
 
 /* ---- one edge: the coefficient matrix, mirrored terms in pairs ---- */
@@ -137,18 +141,6 @@ static void finish_one(Dag *dag, Rat factor)
 	dag->finishes = 1;
 }
 
-static Dag *vertex_form(Rat value)
-{
-	Dag *dag = dag_new("vertex");
-	dag->window = 3;
-	dag->turns = 2;
-	Ref width = difference_of(dag, VAR_CX, VAR_X1, "width");
-	Ref height = difference_of(dag, VAR_Y0, VAR_Y2, "height");
-	dag_accumulate(dag, dag_mul(dag, width, height));
-	finish_one(dag, rat_mul(value, rat(1, 2)));
-	return dag;
-}
-
 enum { MATRIX_X, MATRIX_Y, HORNER, EVEN_X, EVEN_Y, WAYS };
 
 static int total_degree(Poly a)
@@ -198,20 +190,21 @@ static Dag *single(Poly density, int way, Rat unit)
 	return dag;
 }
 
-/* Cost as it will be after fusion, or DEAR if rounding errors could grow too far; all that was
- * built for the estimate is freed. */
-static int single_cost(const Integral *want, Poly density, int way, Rat unit, int best)
+/* Cost, or DEAR if rounding errors could grow too far; all that was built for the estimate is
+ * freed. */
+static int single_cost(const Integral *want, Poly density, int way, Rat unit, int best,
+	const char *preferred)
 {
 	Mark mark = arena_mark();
 	const Dag *dag = single(density, way, unit);
-	int cost = dag_cost(fuse(dag));
+	int cost = dag_cost(dag, preferred);
 	if (cost < best && bound_ring(dag, scheme_finish(dag), want, 1)[0].k > WORST_BOUND)
 		cost = DEAR;
 	arena_release(mark);
 	return cost;
 }
 
-static Dag *best_single(const Integral *want)
+static Dag *best_single(const Integral *want, const char *preferred)
 {
 	const int ways = total_degree(want->density) <= EVEN_DEGREE ? WAYS : EVEN_X;
 	Poly forms[2] = { want->density, ways == WAYS ? even_density(want->density) : poly_zero() };
@@ -223,7 +216,7 @@ static Dag *best_single(const Integral *want)
 		int tries = density.count <= FEW_TERMS ? density.count : 0;
 		for (int i = -1; i < tries; ++i) {
 			Rat unit = i < 0 ? content : density.term[i].coef;
-			int cost = single_cost(want, density, way, unit, best_cost);
+			int cost = single_cost(want, density, way, unit, best_cost, preferred);
 			if (cost >= best_cost)
 				continue;
 			best_way = way;
@@ -234,33 +227,33 @@ static Dag *best_single(const Integral *want)
 	return single(forms[best_way >= EVEN_X], best_way, best_unit);
 }
 
-static Dag *best_moments(const Integral *want, int degree)
+static Dag *best_moments(const Integral *want, int degree, const char *preferred)
 {
 	Dag *candidate[4];
 	int count = 0, best = 0;
 	if (degree == 0)
-		candidate[count++] = vertex_form(rat(1, 1));
+		candidate[count++] = moments_vertex(rat(1, 1));
 	if (degree == 2)
 		candidate[count++] = moments_shared();
 	if (degree <= 4)
 		candidate[count++] = moments_even_power(degree);
 	if (degree >= 1)
 		candidate[count++] = moments_recurrence(degree);
-	if (degree <= 4)
+	if (degree <= 4 || preferred)          /* far too dear beyond, unless asked for */
 		candidate[count++] = moments_matrix(want, degree);
 	for (int i = 1; i < count; ++i)
-		if (dag_cost(fuse(candidate[i])) < dag_cost(fuse(candidate[best])))
+		if (dag_cost(candidate[i], preferred) < dag_cost(candidate[best], preferred))
 			best = i;
 	return candidate[best];
 }
 
-Dag *scheme_ring(const Integral *want, int moments)
+Dag *scheme_ring(const Integral *want, int moments, const char *preferred)
 {
 	if (moments >= 0)
-		return best_moments(want, moments);
+		return best_moments(want, moments, preferred);
 	if (want->density.count == 1 && want->density.term[0].mono == 0)
-		return vertex_form(rat_mul(rat(2, 1), want->density.term[0].coef));
-	return best_single(want);
+		return moments_vertex(rat_mul(rat(2, 1), want->density.term[0].coef));
+	return best_single(want, preferred);
 }
 
 /* out_j = (integer combination of the accumulators) * content, so that integer

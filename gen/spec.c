@@ -387,6 +387,8 @@ static const char *canonical_command(const Request *request)
 	for (int i = 0; i < TARGETS && request->targets != ALL_TARGETS; ++i)
 		if (request->targets & 1u << i)
 			text_add(&text, "%s%s", i ? "," : " --targets ", target_names[i]);
+	if (request->scheme)
+		text_add(&text, " --scheme %s", request->scheme);
 	if (request->prefix)
 		text_add(&text, " --prefix %s", request->prefix);
 	return text_take(&text);

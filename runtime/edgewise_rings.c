@@ -90,6 +90,7 @@ static void ew_ring_fence(int past)
 #include "edgewise_precision.h"
 #include "edgewise_rings_template.h"
 #ifdef EW_MAX_DEGREE
+#include "edgewise_trust_template.h"
 #include "edgewise_batches_template.h"
 #endif
 #undef EW_IS_FLOAT
@@ -100,6 +101,7 @@ static void ew_ring_fence(int past)
 #include "edgewise_precision.h"
 #include "edgewise_rings_template.h"
 #ifdef EW_MAX_DEGREE
+#include "edgewise_trust_template.h"
 #include "edgewise_batches_template.h"
 #endif
 #undef EW_IS_FLOAT

@@ -83,7 +83,7 @@ static void EW_LOCAL(run_staged)(EW_RUN *run, const EW_LOCAL(vertices) *v, int w
 
 /* A short ring: all items in lane 0, by a scalar kernel, since vectors would be left empty. */
 static void EW_LOCAL(run_short)(int id, const EW_LOCAL(vertices) *v, const EW_REAL *origin,
-	double *total)
+	double *wide)
 {
 	const ew_ring_shape *shape = &ew_ring_shapes[id];
 	EW_RUN *run = EW_LOCAL(kernel)(id, ew_ring_scalar(ew_cpu_target()));
@@ -93,13 +93,15 @@ static void EW_LOCAL(run_short)(int id, const EW_LOCAL(vertices) *v, const EW_RE
 	EW_LOCAL(stage)(v, 0, v->n + 1, x, y);
 	run(x, y, origin, 1, 1, v->n + 2 - (size_t)shape->window, sum);
 	for (int k = 0; k < shape->accumulators; ++k)
-		total[k] = (double)sum[k * EW_WIDTH];
+		wide[k * EW_WIDTH] = (double)sum[k * EW_WIDTH];
 }
 
-/* Sums of all accumulators over the items of every lane. */
-static void EW_LOCAL(run_lanes)(EW_RUN *run, const EW_LOCAL(vertices) *v,
-	const ew_ring_shape *shape, const EW_REAL *origin, double *wide)
+/* A long ring. */
+static void EW_LOCAL(run_lanes)(int id, const EW_LOCAL(vertices) *v, const EW_REAL *origin,
+	double *wide)
 {
+	const ew_ring_shape *shape = &ew_ring_shapes[id];
+	EW_RUN *run = EW_LOCAL(kernel)(id, ew_cpu_target());
 	const size_t cells = (size_t)shape->accumulators * EW_WIDTH;
 	const size_t reach = (size_t)shape->window - 1, items = v->n + 1 - reach;
 	const size_t step = (size_t)shape->turns * EW_WIDTH;
@@ -120,22 +122,26 @@ static void EW_LOCAL(run_lanes)(EW_RUN *run, const EW_LOCAL(vertices) *v,
 	}
 }
 
-/* Sums of all accumulators. */
-static void EW_LOCAL(run_ring)(int id, const EW_LOCAL(vertices) *v, double *total)
+/* Sums of all accumulators over the items of every lane; a short ring has one lane only. */
+static void EW_LOCAL(run_items)(int id, const EW_LOCAL(vertices) *v, double *wide)
 {
-	const ew_ring_shape *shape = &ew_ring_shapes[id];
-	double wide[EW_MAX_ACCUMULATORS * EW_WIDTH];
 	EW_ALIGNED EW_REAL origin[EW_WIDTH];
 	for (int l = 0; l < EW_WIDTH; ++l)
 		origin[l] = EW_LOCAL(vertex_x)(v, 0);
-	if (v->n < EW_SHORT) {
-		EW_LOCAL(run_short)(id, v, origin, total);
-		return;
-	}
-	EW_LOCAL(run_lanes)(EW_LOCAL(kernel)(id, ew_cpu_target()), v, shape, origin, wide);
-	for (int k = 0; k < shape->accumulators; ++k) {
+	if (v->n < EW_SHORT)
+		EW_LOCAL(run_short)(id, v, origin, wide);
+	else
+		EW_LOCAL(run_lanes)(id, v, origin, wide);
+}
+
+/* Sums of all accumulators. */
+static void EW_LOCAL(run_ring)(int id, const EW_LOCAL(vertices) *v, double *total)
+{
+	double wide[EW_MAX_ACCUMULATORS * EW_WIDTH];
+	EW_LOCAL(run_items)(id, v, wide);
+	for (int k = 0; k < ew_ring_shapes[id].accumulators; ++k) {
 		double *lane = wide + k * EW_WIDTH;
-		for (int half = EW_WIDTH / 2; half > 0; half /= 2)
+		for (int half = v->n < EW_SHORT ? 0 : EW_WIDTH / 2; half > 0; half /= 2)
 			for (int l = 0; l < half; ++l)
 				lane[l] += lane[l + half];
 		total[k] = lane[0];

@@ -17,6 +17,8 @@ enum {
 	EW_CACHED = 1 << 22          /* bytes of results that are worth keeping in the caches */
 };
 
+#define EW_SLACK (1 + 0x1p-48)         /* more than a few roundings of double */
+
 /* Short rings side by side: where each begins, the least and the most vertices. */
 typedef struct {
 	const int32_t *start;
