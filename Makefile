@@ -1,7 +1,7 @@
 # Edgewise. Targets:
 #   make             build gen, emit, build build/libedgewise.a, run examples/shapes on real data
 #   make deps        install what the tests need (Debian: apt-get)
-#   make test        all tests            make bench       operation counts and ns per edge
+#   make test        all tests            make bench       against machine and peers
 #   make generated   emit generated/ anew make layers      no object refers upwards in the pipeline
 #   make accept      accept new golden outputs             make clean
 # Variables: CC CFLAGS LDFLAGS B (build directory) SAN=1
@@ -29,7 +29,7 @@ LIB     := $(B)/libedgewise.a
 SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
 MATH    := -lmpfr -lgmp -lm
 
-.PHONY: all library objects generated test deps bench layers accept clean
+.PHONY: all library objects generated test deps bench deps-bench layers accept clean
 .DELETE_ON_ERROR:
 
 all: library $(B)/shapes
@@ -81,12 +81,72 @@ generated: $(B)/gen
 $(B)/shapes: examples/shapes.c library
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
 
-$(B)/bench: bench/bench.c library
-	$(COMPILE) -std=c11 -fno-tree-vectorize -fno-tree-slp-vectorize -I$(B)/emitted -o $@ $< \
-		$(LIB) $(LDFLAGS) -lm
+# ---- bench: make bench BENCH='--quick --json FILE'; peers are optional (make deps-bench) ----
+
+# As their users would compile them. System headers are not ours to warn about.
+PEER_FLAGS := -O3 -march=native -DNDEBUG -isystem /usr/include/opencv4
+PEER_C     := $(CC) -x c -std=c11 $(STRICT) $(PEER_FLAGS)
+PEER_CXX   := $(CXX) -x c++ -Wall -Wextra $(PEER_FLAGS)
+
+BENCH_PARTS    := bench measure table vectors targets polygons kernels order schemes trust streams \
+                  batches contest chart
+BENCH_PACKAGES := g++ libgeos-dev libboost-dev libcgal-dev libopencv-imgproc-dev
+# A peak of multiply-adds and a scalar kernel must stay what they are written as.
+BENCH_COMPILE   = $(COMPILE) -std=c11 -fno-tree-vectorize -fno-tree-slp-vectorize \
+                  -I$(B)/emitted $(BENCH_EMITS:%=-I$(B)/bench.%)
+BENCH_OBJECTS  := $(BENCH_PARTS:%=$(B)/bench.obj/%.o)
+
+# Kernels for comparison, each emission under a prefix of its own: everything as a coefficient
+# matrix, and all moments to degree 12. The files to compile are known only after gen ran.
+BENCH_EMITS := mx deg12
+EMIT_mx     := --scheme matrix --max-degree 6 --precision double
+EMIT_deg12  := --max-degree 12
+FILES_mx    := mx_*.c
+FILES_deg12 := deg12_moments*.c
+
+$(B)/bench.mx.stamp $(B)/bench.deg12.stamp: $(B)/bench.%.stamp: $(B)/gen
+	$(B)/gen $(EMIT_$*) --prefix $* --no-runtime --quiet --out $(B)/bench.$*
+	@touch $@
+
+$(B)/bench.%/kernels.a: $(B)/bench.%.stamp
+	@cd $(@D) && rm -f $(@F) *.o && for f in $(FILES_$*); do \
+		$(COMPILE) -std=c99 -c -o "$${f%.c}.o" "$$f" || exit 1; done && \
+		ar rcs $(@F) *.o
+
+$(B)/bench.obj:
+	@mkdir -p $@
+
+$(B)/bench.obj/%.o: bench/%.c bench/bench.h bench/peers.h bench/vector_template.h \
+		$(B)/emitted.stamp $(BENCH_EMITS:%=$(B)/bench.%.stamp) | $(B)/bench.obj
+	$(BENCH_COMPILE) -c -o $@ $<
+
+# name, file, compiler, its header, what to link: compiled if the header is there.
+define peer_rule
+BENCH_PEERS += $(B)/bench.obj/peer_$1
+$(B)/bench.obj/peer_$1.o: bench/$2 bench/peer_absent.c bench/peers.h | $(B)/bench.obj
+	@if echo '#include <$4>' | $3 -fsyntax-only - 2>/dev/null; then \
+		echo '$5' >$$(@:.o=.link); \
+		echo '$3 -c -o $$@ $$<'; $3 -c -o $$@ $$<; \
+	else \
+		: >$$(@:.o=.link); \
+		$(CC) -DPEER=$1 -c -o $$@ bench/peer_absent.c; \
+	fi
+endef
+$(eval $(call peer_rule,GEOS,peer_geos.c,$(PEER_C),geos_c.h,-lgeos_c))
+$(eval $(call peer_rule,Boost,peer_boost.cpp,$(PEER_CXX),boost/geometry.hpp,-lstdc++))
+$(eval $(call peer_rule,CGAL,peer_cgal.cpp,$(PEER_CXX),CGAL/Polygon_2.h,-lstdc++ -lmpfr -lgmp))
+$(eval $(call peer_rule,OpenCV,peer_opencv.cpp,$(PEER_CXX),opencv2/imgproc.hpp,-lopencv_imgproc \
+	-lopencv_core -lstdc++))
+
+$(B)/bench: $(BENCH_OBJECTS) $(BENCH_PEERS:=.o) $(BENCH_EMITS:%=$(B)/bench.%/kernels.a) library
+	$(COMPILE) -o $@ $(filter %.o %.a,$^) $(LIB) $(LDFLAGS) $$(cat $(BENCH_PEERS:=.link)) -lm
 
 bench: $(B)/bench
-	@$(B)/bench
+	@$(B)/bench $(BENCH)
+
+deps-bench:
+	@$(MAKE) --no-print-directory deps PACKAGES='$(BENCH_PACKAGES)'
+	@rm -f $(BENCH_PEERS:=.o)
 
 # ---- tests ----
 
@@ -111,7 +171,7 @@ $(B)/tests/polynomials: tests/polynomials.c tests/reference.c $(B)/polynomials.s
 $(B)/tests/%: tests/%.c tests/reference.c $(wildcard tests/*.h) library | $(B)/tests
 	$(TEST_BUILD) -I$(B)/emitted -o $@ $(filter %.c,$^) $(LIB) $(LDFLAGS) $(MATH)
 
-test: $(PROGRAMS) $(B)/shapes $(B)/bench
+test: $(PROGRAMS) $(B)/shapes
 	@sh tests/run.sh $(B)/tests/logs \
 		'layers: sh tests/layers.sh $(B) "$(GEN)"' \
 		'units: $(B)/tests/units' 'readme: sh tests/readme.sh $(B)' \
