@@ -30,7 +30,8 @@ typedef struct {
 	int id, moved;                         /* moved: about the first vertex of each ring */
 	EW_RUN *run;
 	ew_ring_finish *finish;                /* of `finished` rings side by side */
-	size_t finished, most;                 /* a ring of `most` vertices does not fit */
+	size_t finished;
+	int32_t most;                          /* a ring of that many vertices does not fit */
 	const EW_LOCAL(columns) *by;
 	EW_LOCAL(group) group[2];
 	int now;
@@ -59,7 +60,7 @@ EW_INLINE size_t EW_LOCAL(short_size)(const EW_LOCAL(batch) *b, size_t ring)
 	size_t n = EW_LOCAL(ring_size)(b, ring);
 	if (n == EW_SHORT)
 		n = EW_LOCAL(ring_vertices)(b, ring).n;
-	return n - 3 < b->most - 3 ? n : 0;
+	return n - 3 < (size_t)b->most - 3 ? n : 0;
 }
 
 /* Lanes without a ring get the start of one that fits. */
@@ -74,28 +75,48 @@ static void EW_LOCAL(fill_lanes)(size_t width, EW_LOCAL(group) *g)
 	g->lanes.shortest = 0;
 }
 
-static void EW_LOCAL(form_group)(const EW_LOCAL(batch) *b, size_t first, EW_LOCAL(group) *g)
+/* Any sizes. */
+static void EW_LOCAL(form_mixed)(const EW_LOCAL(batch) *b, EW_LOCAL(group) *g)
 {
-	const size_t left = b->rings - first, width = b->by->width;
-	const size_t count = left < width ? left : width;
-	const int32_t *start = b->offsets + first;
 	size_t shortest = EW_SHORT, longest = 0, furthest = 0;
-	for (size_t l = 0; l < count; ++l) {
-		const size_t n = EW_LOCAL(short_size)(b, first + l);
+	for (size_t l = 0; l < g->count; ++l) {
+		const size_t n = EW_LOCAL(short_size)(b, g->first + l);
 		g->length[l] = (EW_REAL)n;
-		furthest = n ? (size_t)start[l] : furthest;
+		furthest = n ? (size_t)g->lanes.start[l] : furthest;
 		shortest = n < shortest ? n : shortest;
 		longest = n > longest ? n : longest;
 	}
-	g->first = first;
-	g->count = count;
 	g->furthest = furthest;
 	g->left_out = shortest == 0;
-	g->lanes.start = start;
 	g->lanes.shortest = shortest;
 	g->lanes.longest = longest;
-	if (g->left_out || count < width)
-		EW_LOCAL(fill_lanes)(width, g);
+	if (g->left_out || g->count < b->by->width)
+		EW_LOCAL(fill_lanes)(b->by->width, g);
+}
+
+static void EW_LOCAL(form_group)(const EW_LOCAL(batch) *b, size_t first, EW_LOCAL(group) *g)
+{
+	const size_t left = b->rings - first, width = b->by->width;
+	const int32_t *start = b->offsets + first;
+	int32_t shortest = EW_SHORT, longest = 0;
+	g->first = first;
+	g->count = left < width ? left : width;
+	g->lanes.start = start;
+	for (size_t l = 0; l < g->count; ++l) {
+		const int32_t n = start[l + 1] - start[l];
+		shortest = n < shortest ? n : shortest;
+		longest = n > longest ? n : longest;
+	}
+	if (left < width || shortest < 3 || longest >= b->most) {
+		EW_LOCAL(form_mixed)(b, g);
+		return;
+	}
+	for (size_t l = 0; l < width && shortest < longest; ++l)
+		g->length[l] = (EW_REAL)(start[l + 1] - start[l]);
+	g->furthest = (size_t)start[width - 1];
+	g->left_out = 0;
+	g->lanes.shortest = (size_t)shortest;
+	g->lanes.longest = (size_t)longest;
 }
 
 /* Near the end of the arrays a gather by vectors would read past them. */
@@ -104,8 +125,10 @@ static void EW_LOCAL(gather_slowly)(const EW_REAL *from, const EW_LOCAL(group) *
 {
 	for (size_t l = 0; l < width; ++l) {
 		const EW_REAL *row = from + g->lanes.start[l], origin = moved ? row[0] : 0;
+		const size_t n = g->lanes.shortest < g->lanes.longest ? (size_t)g->length[l]
+			: g->lanes.longest;
 		for (size_t c = 0; c < g->lanes.longest + 2; ++c)
-			tile[c * width + l] = row[(EW_REAL)c < g->length[l] ? c : 0] - origin;
+			tile[c * width + l] = row[c < n ? c : 0] - origin;
 	}
 }
 
@@ -113,11 +136,14 @@ static void EW_LOCAL(prepare)(const EW_LOCAL(batch) *b, size_t first, EW_LOCAL(g
 {
 	const size_t width = b->by->width;
 	EW_LOCAL(form_group)(b, first, g);
+	for (size_t i = 0; i <= g->lanes.longest * width; i += 64 / sizeof(EW_REAL)) {
+		EW_PREFETCH((const char *)(b->x + g->lanes.start[0] + i) + EW_AHEAD);
+		EW_PREFETCH((const char *)(b->y + g->lanes.start[0] + i) + EW_AHEAD);
+	}
 	if (g->lanes.longest == 0)
 		return;
 	if (g->furthest + g->lanes.longest + 3 <= (size_t)b->offsets[b->rings]) {
-		b->by->gather(b->x, &g->lanes, g->length, b->moved, g->x);
-		b->by->gather(b->y, &g->lanes, g->length, b->moved, g->y);
+		b->by->gather(b->x, b->y, &g->lanes, g->length, b->moved, g->x, g->y);
 	} else {
 		EW_LOCAL(gather_slowly)(b->x, g, width, b->moved, g->x);
 		EW_LOCAL(gather_slowly)(b->y, g, width, b->moved, g->y);
@@ -142,7 +168,7 @@ static void EW_LOCAL(run_group)(EW_LOCAL(batch) *b, const EW_LOCAL(group) *g)
 #endif
 	for (size_t l = 0; l < width; l += b->finished)
 		b->finish(wide + l, b->result + l, EW_WIDTH);
-	memset(b->sum, 0, cells * sizeof *b->sum);
+	b->by->clear(b->sum, cells);
 }
 
 static void EW_LOCAL(run_left_out)(EW_LOCAL(batch) *b, const EW_LOCAL(group) *g)
@@ -203,7 +229,7 @@ static void EW_LOCAL(begin)(EW_LOCAL(batch) *b, int degree, int moved, const EW_
 }
 
 /* Past the caches if the results of all rings would not stay in them anyway. */
-static void EW_LOCAL(put)(EW_REAL *to, double value, int past)
+EW_INLINE void EW_LOCAL(put)(EW_REAL *to, double value, int past)
 {
 #if EW_X86
 	if (past) {
@@ -230,6 +256,14 @@ static int EW_LOCAL(is_large)(size_t results)
 	return results > EW_CACHED / sizeof(EW_REAL);
 }
 
+EW_INLINE void EW_LOCAL(put_moments)(const double *result, size_t rings, size_t outputs, int past,
+	EW_REAL *to)
+{
+	for (size_t l = 0; l < rings; ++l)
+		for (size_t j = 0; j < outputs; ++j)
+			EW_LOCAL(put)(to++, result[j * EW_WIDTH + l], past);
+}
+
 int EW_NAME(moments_rings)(int degree, const EW_REAL *x, const EW_REAL *y, const int32_t *offsets,
 	size_t rings, EW_REAL *out)
 {
@@ -242,13 +276,11 @@ int EW_NAME(moments_rings)(int degree, const EW_REAL *x, const EW_REAL *y, const
 	const EW_LOCAL(group) *g;
 	EW_LOCAL(batch) b;
 	EW_LOCAL(begin)(&b, degree, 0, x, y, offsets, rings);
-	for (EW_REAL *to = out; (g = EW_LOCAL(next_group)(&b)) != NULL;) {
-		const double *result = b.result;
-		const size_t count = g->count;
-		for (size_t l = 0; l < count; ++l)
-			for (size_t j = 0; j < outputs; ++j)
-				EW_LOCAL(put)(to++, result[j * EW_WIDTH + l], past);
-	}
+	for (EW_REAL *to = out; (g = EW_LOCAL(next_group)(&b)) != NULL; to += g->count * outputs)
+		if (past)
+			EW_LOCAL(put_moments)(b.result, g->count, outputs, 1, to);
+		else
+			EW_LOCAL(put_moments)(b.result, g->count, outputs, 0, to);
 	ew_ring_fence(past);
 	return EW_OK;
 }
@@ -260,17 +292,38 @@ int EW_NAME(area_rings)(const EW_REAL *x, const EW_REAL *y, const int32_t *offse
 }
 
 #if EW_MAX_DEGREE >= 1
-/* Centroid of lane l, as EW_NAME(centroid) has it. */
-static void EW_LOCAL(lane_centroid)(const EW_LOCAL(batch) *b, const EW_LOCAL(group) *g, size_t l,
-	EW_REAL c[2])
+/* Centroids of a group less the first vertices: c[lane], and c[EW_WIDTH + lane] for y.
+ * 0 if one of them needs the care of EW_NAME(centroid). */
+static int EW_LOCAL(divide)(const EW_LOCAL(batch) *b, const EW_LOCAL(group) *g, double *c)
 {
-	const double *moment = b->result;
-	EW_LOCAL(vertices) v = EW_LOCAL(ring_vertices)(b, g->first + l);
-	if (v.n >= 3 && EW_LOCAL(is_safe)(moment[l], moment[EW_WIDTH + l], moment[2 * EW_WIDTH + l])) {
-		c[0] = (EW_REAL)((double)v.x[0] + moment[EW_WIDTH + l] / moment[l]);
-		c[1] = (EW_REAL)((double)v.y[0] + moment[2 * EW_WIDTH + l] / moment[l]);
-	} else
-		EW_NAME(centroid)(v.x, v.y, v.n, c);
+	const double *area = b->result, *x = area + EW_WIDTH, *y = x + EW_WIDTH;
+	int careful = 0;
+	for (size_t l = 0; l < EW_WIDTH; ++l) {
+		c[l] = x[l] / area[l];
+		c[EW_WIDTH + l] = y[l] / area[l];
+	}
+	for (size_t l = 0; l < g->count; ++l)
+		careful |= !EW_LOCAL(is_safe)(area[l], x[l], y[l]);
+	return !careful;
+}
+
+static void EW_LOCAL(put_centroids)(const EW_LOCAL(batch) *b, const EW_LOCAL(group) *g, int past,
+	EW_REAL *cx, EW_REAL *cy)
+{
+	EW_ALIGNED double c[2 * EW_WIDTH];
+	const int32_t *start = b->offsets + g->first;
+	const int divided = EW_LOCAL(divide)(b, g, c);
+	for (size_t l = 0; l < g->count; ++l) {
+		EW_REAL one[2];
+		if (divided) {
+			one[0] = (EW_REAL)((double)b->x[start[l]] + c[l]);
+			one[1] = (EW_REAL)((double)b->y[start[l]] + c[EW_WIDTH + l]);
+		} else
+			EW_NAME(centroid)(b->x + start[l], b->y + start[l],
+				EW_LOCAL(ring_size)(b, g->first + l), one);
+		EW_LOCAL(put)(cx + g->first + l, (double)one[0], past);
+		EW_LOCAL(put)(cy + g->first + l, (double)one[1], past);
+	}
 }
 
 int EW_NAME(centroid_rings)(const EW_REAL *x, const EW_REAL *y, const int32_t *offsets,
@@ -283,12 +336,7 @@ int EW_NAME(centroid_rings)(const EW_REAL *x, const EW_REAL *y, const int32_t *o
 	EW_LOCAL(batch) b;
 	EW_LOCAL(begin)(&b, 1, 1, x, y, offsets, rings);
 	while ((g = EW_LOCAL(next_group)(&b)) != NULL)
-		for (size_t l = 0; l < g->count; ++l) {
-			EW_REAL c[2];
-			EW_LOCAL(lane_centroid)(&b, g, l, c);
-			EW_LOCAL(put)(cx + g->first + l, (double)c[0], past);
-			EW_LOCAL(put)(cy + g->first + l, (double)c[1], past);
-		}
+		EW_LOCAL(put_centroids)(&b, g, past, cx, cy);
 	ew_ring_fence(past);
 	return EW_OK;
 }

@@ -9,6 +9,8 @@
  * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 #include "edgewise_runtime.h"
 
+#include <string.h>
+
 static void ew_ring_move_scalar(const double *from, size_t stride, double origin, size_t count,
 	double *to)
 {
@@ -23,8 +25,22 @@ static void ew_ring_move_scalarf(const float *from, size_t stride, float origin,
 		to[i] = from[i * stride] - origin;
 }
 
-static const ew_ring_columns ew_ring_columns_scalar = { 1, ew_ring_move_scalar, NULL };
-static const ew_ring_columnsf ew_ring_columns_scalarf = { 1, ew_ring_move_scalarf, NULL };
+static void ew_ring_clear_scalar(double *to, size_t count)
+{
+	memset(to, 0, count * sizeof *to);
+}
+
+static void ew_ring_clear_scalarf(float *to, size_t count)
+{
+	memset(to, 0, count * sizeof *to);
+}
+
+static const ew_ring_columns ew_ring_columns_scalar = {
+	1, ew_ring_move_scalar, ew_ring_clear_scalar, NULL
+};
+static const ew_ring_columnsf ew_ring_columns_scalarf = {
+	1, ew_ring_move_scalarf, ew_ring_clear_scalarf, NULL
+};
 
 #if EW_BUILD_AVX2 || EW_BUILD_AVX512
 #include <immintrin.h>

@@ -20,26 +20,31 @@ EW_ATTRIBUTE static void EW_ISA(move)(const EW_REAL *from, size_t stride, EW_REA
 		to[i] = from[i * stride] - origin;
 }
 
+EW_ATTRIBUTE static void EW_ISA(clear)(EW_REAL *to, size_t count)
+{
+	for (size_t i = 0; i < count; i += EW_ROWS)
+		EW_STORE(to + i, EW_SPLAT(0));
+}
+
 #define EW_SELECT_COLUMN(k) \
 	column[k] = EW_SELECT(EW_LOAD(lengths), EW_SPLAT((EW_REAL)(c + k)), column[k], first);
 #define EW_STORE_COLUMN(k) \
 	EW_STORE(tile + (c + k) * EW_ROWS, moved ? EW_SUB(column[k], first) : column[k]);
-EW_ATTRIBUTE EW_INLINE void EW_ISA(gather_any)(const EW_REAL *from, const ew_ring_lanes *lanes,
-	const EW_REAL *lengths, int moved, EW_REAL *tile)
+/* One coordinate; `ragged` if the lengths differ. */
+EW_ATTRIBUTE EW_INLINE void EW_ISA(fill)(const EW_REAL *from, const size_t *start, size_t longest,
+	const EW_REAL *lengths, int ragged, int moved, EW_REAL *tile)
 {
-	const size_t longest = lanes->longest;
-	const size_t even = lanes->shortest == longest ? EW_TILE : lanes->shortest;
-	const int32_t *s = lanes->start;
-	const size_t start[EW_ROWS] = EW_STARTS(s);
 	EW_VECTOR column[EW_COLUMNS], first;
 	EW_ISA(block)(from, start, column);
 	first = column[0];
-	for (size_t c = 0; c < longest; c += EW_COLUMNS) {
-		EW_ISA(block)(from + c, start, column);
-		if (c + EW_COLUMNS > even) {
+	for (size_t c = 0; ; EW_ISA(block)(from + c, start, column)) {
+		if (ragged) {
 			EW_EACH(EW_SELECT_COLUMN)
 		}
 		EW_EACH(EW_STORE_COLUMN)
+		c += EW_COLUMNS;
+		if (c >= longest)
+			break;
 	}
 	first = moved ? EW_SUB(first, first) : first;
 	EW_STORE(tile + longest * EW_ROWS, first);
@@ -48,16 +53,29 @@ EW_ATTRIBUTE EW_INLINE void EW_ISA(gather_any)(const EW_REAL *from, const ew_rin
 #undef EW_SELECT_COLUMN
 #undef EW_STORE_COLUMN
 
-EW_ATTRIBUTE static void EW_ISA(gather)(const EW_REAL *from, const ew_ring_lanes *lanes,
-	const EW_REAL *lengths, int moved, EW_REAL *tile)
+EW_ATTRIBUTE static void EW_ISA(gather)(const EW_REAL *x, const EW_REAL *y,
+	const ew_ring_lanes *lanes, const EW_REAL *lengths, int moved, EW_REAL *tile_x,
+	EW_REAL *tile_y)
 {
-	if (moved)
-		EW_ISA(gather_any)(from, lanes, lengths, 1, tile);
-	else
-		EW_ISA(gather_any)(from, lanes, lengths, 0, tile);
+	const size_t longest = lanes->longest;
+	const int32_t *s = lanes->start;
+	const size_t start[EW_ROWS] = EW_STARTS(s);
+#define EW_FILL(ragged, moved) \
+	EW_ISA(fill)(x, start, longest, lengths, ragged, moved, tile_x); \
+	EW_ISA(fill)(y, start, longest, lengths, ragged, moved, tile_y)
+	if (lanes->shortest < longest) {
+		EW_FILL(1, moved);
+	} else if (moved) {
+		EW_FILL(0, 1);
+	} else {
+		EW_FILL(0, 0);
+	}
+#undef EW_FILL
 }
 
-static const EW_LOCAL(columns) EW_ISA(columns) = { EW_ROWS, EW_ISA(move), EW_ISA(gather) };
+static const EW_LOCAL(columns) EW_ISA(columns) = {
+	EW_ROWS, EW_ISA(move), EW_ISA(clear), EW_ISA(gather)
+};
 
 #undef EW_ISA
 #undef EW_VECTOR

@@ -14,7 +14,8 @@ enum {
 	EW_SHORT = 24,       /* rings of fewer vertices run in one lane, by definition */
 	EW_STAGE = 256,      /* vertices moved or gathered at a time; not part of the definition */
 	EW_TILE = EW_SHORT + 4,      /* room for the columns of rings side by side */
-	EW_CACHED = 1 << 22          /* bytes of results that are worth keeping in the caches */
+	EW_CACHED = 1 << 22,         /* bytes of results that are worth keeping in the caches */
+	EW_AHEAD = 2048              /* bytes of coordinates that are asked for in advance */
 };
 
 #define EW_SLACK (1 + 0x1p-48)         /* more than a few roundings of double */
@@ -28,7 +29,8 @@ typedef struct {
 /* What a target can do with coordinates by vectors (edgewise_columns.c).
  *
  * move: to[i] = from[i * stride] - origin, stride 1 or 2.
- * gather: tile[c * width + l] is coordinate c of the ring of lane l, and its first one again for
+ * clear: to[i] = 0; count is a multiple of the number of virtual lanes.
+ * gather: tile_x[c * width + l] is x of vertex c of the ring of lane l, and its first one again for
  * c >= lengths[l] (not read if shortest is longest); less the first one with `moved`. Columns 0 .. longest + 1 are written, up to
  * EW_TILE may be; vertices from start[l] to 3 places past `longest` may be read. NULL for scalar
  * targets, whose width is 1. */
@@ -36,8 +38,9 @@ typedef struct {
 typedef struct { \
 	size_t width; \
 	void (*move)(const real *from, size_t stride, real origin, size_t count, real *to); \
-	void (*gather)(const real *from, const ew_ring_lanes *lanes, const real *lengths, \
-		int moved, real *tile); \
+	void (*clear)(real *to, size_t count); \
+	void (*gather)(const real *x, const real *y, const ew_ring_lanes *lanes, \
+		const real *lengths, int moved, real *tile_x, real *tile_y); \
 } ew_ring_columns##f;
 EW_COLUMNS_TYPE(, double)
 EW_COLUMNS_TYPE(f, float)
@@ -45,12 +48,15 @@ EW_COLUMNS_TYPE(f, float)
 
 /* EW_ALIGNED: to a cache line, which is also the widest register. */
 #if defined(__GNUC__) || defined(__clang__)
+#define EW_PREFETCH(address) __builtin_prefetch(address)
 #define EW_ALIGNED __attribute__((aligned(64)))
 #define EW_INLINE __attribute__((always_inline)) static inline
 #elif defined(_MSC_VER)
+#define EW_PREFETCH(address) (void)0
 #define EW_ALIGNED __declspec(align(64))
 #define EW_INLINE static __forceinline
 #else
+#define EW_PREFETCH(address) (void)0
 #define EW_ALIGNED
 #define EW_INLINE static inline
 #endif
