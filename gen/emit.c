@@ -17,7 +17,7 @@ const Load loads[LOADS] = {
 
 static const Vector avx2 = {
 	"immintrin.h", "_mm256", { "__m256d", "__m256" }, { "pd", "ps" }, { 4, 8 }, 16, SPELL_X86,
-	"%_loadu_@($1)", "%_storeu_@($1, $2)", { NULL, NULL }, { NULL, NULL }, NULL,
+	"%_loadu_@($1)", "%_storeu_@($1, $2)", { NULL, NULL }, { NULL, NULL }, NULL, 1,
 };
 static const Vector avx512 = {
 	"immintrin.h", "_mm512", { "__m512d", "__m512" }, { "pd", "ps" }, { 8, 16 }, 32, SPELL_X86,
@@ -27,12 +27,12 @@ static const Vector avx512 = {
 	  "_mm512_castpd_si512($1), $3))",
 	  "_mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512($2), "
 	  "_mm512_castps_si512($1), $3))" },
-	{ "__mmask8", "__mmask16" }, "%_maskz_loadu_@($2, $1)",
+	{ "__mmask8", "__mmask16" }, "%_maskz_loadu_@($2, $1)", 0,
 };
 static const Vector neon = {
 	"arm_neon.h", "", { "float64x2_t", "float32x4_t" }, { "f64", "f32" }, { 2, 4 }, 32,
 	SPELL_NEON,
-	"vld1q_@($1)", "vst1q_@($1, $2)", { NULL, NULL }, { NULL, NULL }, NULL,
+	"vld1q_@($1)", "vst1q_@($1, $2)", { NULL, NULL }, { NULL, NULL }, NULL, 0,
 };
 
 const Target targets[] = {

@@ -33,11 +33,13 @@ static void add_environment(Text *text, const Request *request)
 		"#elif defined(__GNUC__) && !defined(__TINYC__)\n"
 		"#pragma GCC optimize (\"fp-contract=off\")\n"
 		"#elif defined(_MSC_VER)\n#pragma fp_contract(off)\n#endif\n\n");
-	text_add(text, "/* Accumulators that stay in memory: "
-		"the compiler must not know that it can keep them in registers. */\n"
+	text_add(text, "/* What compilers must not see through: that accumulators in memory could be in "
+		"registers (they would spill),\n * and that a vector could be loaded a second time "
+		"instead of being kept. */\n"
 		"#if defined(__GNUC__) || defined(__clang__)\n"
 		"#define EW_HIDE(pointer) __asm__(\"\" : \"+r\"(pointer))\n"
-		"#else\n#define EW_HIDE(pointer) (void)0\n#endif\n\n");
+		"#define EW_KEEP(vector) __asm__(\"\" : \"+x\"(vector))\n"
+		"#else\n#define EW_HIDE(pointer) (void)0\n#define EW_KEEP(vector) (void)0\n#endif\n\n");
 	text_add(text, "/* Which targets can this compiler build? "
 		"The CPU is asked at run time. */\n"
 		"#if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__)) "

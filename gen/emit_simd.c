@@ -102,7 +102,11 @@ static void add_window(const Shape *shape, int turn, const char *suffix, int who
 		char *name = format("%s%s", loads[i].name, suffix);
 		char *from = format("%s + %s", loads[i].array, emit_place(&loads[i], turn));
 		char *value = whole ? load(shape, from) : load_some(shape, name, from, suffix);
-		text_add(shape->text, "%sconst %s %s = %s;\n", tab, shape->type, name, value);
+		const int hidden = whole && shape->vector->keeps;
+		text_add(shape->text, "%s%s%s %s = %s;\n", tab, hidden ? "" : "const ", shape->type,
+			name, value);
+		if (hidden)
+			text_add(shape->text, "%sEW_KEEP(%s);\n", tab, name);
 	}
 }
 

@@ -322,6 +322,7 @@ typedef struct {                             /* a vector instruction set; [0] do
 	const char *load, *store;            /* $1 pointer, $2 value */
 	const char *shift[2];                /* $1 this, $2 next vector, $3 by how many; or NULL */
 	const char *mask[2], *load_masked;   /* type of a mask; $1 pointer, $2 mask; or NULL */
+	int keeps;                           /* what is loaded is hidden, lest it be loaded twice */
 } Vector;
 
 typedef struct {                             /* one row per target */
