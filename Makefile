@@ -21,7 +21,7 @@ COMPILE = $(CC) $(STRICT) -ffp-contract=off $(SANITIZE) $(CFLAGS)
 GEN     := util rational polynomial spec green dag fuse evaluate bound moments compensated scheme schedule \
            proof kernel emit emit_edge emit_simd emit_ring emit_list emit_header bundle deliver main
 RUNTIME := $(addprefix runtime/,edgewise_runtime.h edgewise_precision.h edgewise_dispatch.c \
-             edgewise_columns_template.h edgewise_columns.c \
+             edgewise_sides_template.h edgewise_columns_template.h edgewise_columns.c \
              edgewise_rings_template.h edgewise_trust_template.h edgewise_batches_template.h \
              edgewise_rings.c)
 GEN_OBJ := $(GEN:%=$(B)/obj/%.o)

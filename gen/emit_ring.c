@@ -11,6 +11,8 @@
 
 #include <string.h>
 
+enum { ITEM_DEGREE = 2 };          /* beyond it the transposition no longer counts */
+
 static int is_family(const Ring *ring, const char *family)
 {
 	return strcmp(ring->family, family) == 0;
@@ -185,6 +187,24 @@ static void emit_vector_finishes(Files *files, const Request *request, const Ker
 	close_file(text, target);
 }
 
+/* Of low degrees, the items themselves, for rings whose vertices are transposed in registers. */
+static void emit_items(Files *files, const Request *request, const Kernels *kernels,
+	const Target *target)
+{
+	const char *name = format("edgewise_items_%s.h", target->name);
+	Text *text = file_new(files, name);
+	emit_banner(text, name, "one item of each batch kernel of a low degree", request);
+	for (int p = 0; p < precision_count; ++p)
+		for (int i = 0; i < kernels->rings; ++i) {
+			const Ring *ring = &kernels->ring[i];
+			if (!is_family(ring, "moments") || ring->m > ITEM_DEGREE
+			    || !(request->precisions & precisions[p].bit))
+				continue;
+			text_add(text, "\n/* %s */\n", describe(ring));
+			emit_vector_item(text, ring, target, &precisions[p]);
+		}
+}
+
 /* From the sums of the accumulators over all items to the results;
  * the same for every target and precision. */
 static void emit_finish(Files *files, const Request *request, const Kernels *kernels)
@@ -219,6 +239,8 @@ void emit_rings(Files *files, const Request *request, const Kernels *kernels)
 				emit_target(files, request, kernels, &targets[t], &precisions[p]);
 	emit_finish(files, request, kernels);
 	for (int t = 0; t < target_count; ++t)
-		if (targets[t].vector && request->targets & targets[t].bit)
+		if (targets[t].vector && request->targets & targets[t].bit) {
 			emit_vector_finishes(files, request, kernels, &targets[t]);
+			emit_items(files, request, kernels, &targets[t]);
+		}
 }

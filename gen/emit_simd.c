@@ -231,6 +231,24 @@ void emit_vector_finish(Text *text, const Ring *ring, const Target *target)
 	}
 }
 
+void emit_vector_item(Text *text, const Ring *ring, const Target *target,
+	const Precision *precision)
+{
+	const Vector *vector = target->vector;
+	const char *type = vector->type[precision->is_float];
+	const Style style = { precision, 0, 1, 0, "acc[%d]", "acc[%d] = ", vector };
+	text_add(text, "%s EW_INLINE void ew_ring_%s_item_%s%s(", target->attribute, ring->name,
+		target->name, precision->suffix);
+	for (int i = 0; i < LOADS; ++i)
+		if (loads[i].window == ring->window)
+			text_add(text, "%s %s, ", type, loads[i].name);
+	text_add(text, "\n\t%s cx, %s *acc)\n{\n", type, type);
+	if (ring->window == 2)
+		text_add(text, "\t(void)cx;\n");
+	emit_program(text, &ring->fused, &style);
+	text_add(text, "}\n");
+}
+
 void emit_vector_body(Text *text, const Ring *ring, const Target *target,
 	const Precision *precision)
 {

@@ -378,6 +378,9 @@ void emit_vector_body(Text *text, const Ring *ring, const Target *target,
 	const Precision *precision);
 void emit_vector_finish(Text *text, const Ring *ring, const Target *target);
 int  emit_finishes_columns(const Ring *ring);  /* is there a batch function of this ring? */
+/* One item of vectors that are in registers already, as an inline function. */
+void emit_vector_item(Text *text, const Ring *ring, const Target *target,
+	const Precision *precision);
 void emit_rings(Files *files, const Request *request, const Kernels *kernels);
 /* edgewise_kernels.h, edgewise.h, and the manifest (JSON, all but the files). */
 void emit_list(Files *files, const Request *request, const Kernels *kernels);

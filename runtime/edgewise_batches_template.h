@@ -14,6 +14,7 @@
 typedef struct {
 	size_t first, count, furthest;         /* furthest: the start that comes last */
 	ew_ring_lanes lanes;
+	int side;                              /* to be summed up in registers, without a tile */
 	int left_out;                          /* is a ring for the driver of single rings? */
 	int32_t start[EW_WIDTH];               /* if not as in the offsets */
 	EW_ALIGNED EW_REAL length[EW_WIDTH];              /* 0: no ring, or left out */
@@ -27,7 +28,8 @@ typedef struct {
 	const EW_REAL *x, *y;
 	const int32_t *offsets;
 	size_t rings;
-	int id, moved;                         /* moved: about the first vertex of each ring */
+	int far;                               /* larger than the caches */
+	int id, side, moved;                   /* moved: about the first vertex of each ring */
 	EW_RUN *run;
 	ew_ring_finish *finish;                /* of `finished` rings side by side */
 	size_t finished;
@@ -132,15 +134,28 @@ static void EW_LOCAL(gather_slowly)(const EW_REAL *from, const EW_LOCAL(group) *
 	}
 }
 
+/* Vertices that are needed soon, if there are that many. */
+static void EW_LOCAL(ask_for)(const EW_LOCAL(batch) *b, size_t start, size_t end)
+{
+	const size_t last = (size_t)b->offsets[b->rings];
+	end = end < last ? end : last;
+	for (size_t i = start; i < end; i += 64 / sizeof(EW_REAL)) {
+		EW_PREFETCH(b->x + i);
+		EW_PREFETCH(b->y + i);
+	}
+}
+
 static void EW_LOCAL(prepare)(const EW_LOCAL(batch) *b, size_t first, EW_LOCAL(group) *g)
 {
 	const size_t width = b->by->width;
 	EW_LOCAL(form_group)(b, first, g);
-	for (size_t i = 0; i <= g->lanes.longest * width; i += 64 / sizeof(EW_REAL)) {
-		EW_PREFETCH((const char *)(b->x + g->lanes.start[0] + i) + EW_AHEAD);
-		EW_PREFETCH((const char *)(b->y + g->lanes.start[0] + i) + EW_AHEAD);
-	}
+	if (b->far)
+		EW_LOCAL(ask_for)(b, (size_t)b->offsets[first] + EW_AHEAD,
+			(size_t)b->offsets[g->first + g->count] + EW_AHEAD);
 	if (g->lanes.longest == 0)
+		return;
+	g->side = b->side && g->furthest + g->lanes.longest + 3 <= (size_t)b->offsets[b->rings];
+	if (g->side)
 		return;
 	if (g->furthest + g->lanes.longest + 3 <= (size_t)b->offsets[b->rings]) {
 		b->by->gather(b->x, b->y, &g->lanes, g->length, b->moved, g->x, g->y);
@@ -161,14 +176,19 @@ static void EW_LOCAL(run_group)(EW_LOCAL(batch) *b, const EW_LOCAL(group) *g)
 #else
 	const double *wide = b->sum;
 #endif
-	b->run(g->x, g->y, g->x, width, width, items * width, b->sum);
+	if (g->side)
+		b->by->side[b->id - EW_RING_MOMENTS_0](b->x, b->y, &g->lanes, g->length, b->moved,
+			b->sum);
+	else {
+		b->by->clear(b->sum, cells);
+		b->run(g->x, g->y, g->x, width, width, items * width, b->sum);
+	}
 #if EW_IS_FLOAT
 	for (size_t i = 0; i < cells; ++i)
 		wide[i] = (double)b->sum[i];
 #endif
 	for (size_t l = 0; l < width; l += b->finished)
 		b->finish(wide + l, b->result + l, EW_WIDTH);
-	b->by->clear(b->sum, cells);
 }
 
 static void EW_LOCAL(run_left_out)(EW_LOCAL(batch) *b, const EW_LOCAL(group) *g)
@@ -222,6 +242,8 @@ static void EW_LOCAL(begin)(EW_LOCAL(batch) *b, int degree, int moved, const EW_
 	b->run = EW_LOCAL(kernel)(b->id, target);
 	b->finish = ew_ring_finish_columns(target, degree, &b->finished);
 	b->by = EW_LOCAL(by_columns)(target);
+	b->far = rings && (size_t)offsets[rings] > EW_CACHED / sizeof *x;
+	b->side = degree < EW_SIDES && b->by->side[degree];
 	b->most = b->by->gather ? EW_SHORT : 3;
 	b->now = 0;
 	memset(b->sum, 0, sizeof b->sum);

@@ -36,10 +36,10 @@ static void ew_ring_clear_scalarf(float *to, size_t count)
 }
 
 static const ew_ring_columns ew_ring_columns_scalar = {
-	1, ew_ring_move_scalar, ew_ring_clear_scalar, NULL
+	1, ew_ring_move_scalar, ew_ring_clear_scalar, NULL, { NULL }
 };
 static const ew_ring_columnsf ew_ring_columns_scalarf = {
-	1, ew_ring_move_scalarf, ew_ring_clear_scalarf, NULL
+	1, ew_ring_move_scalarf, ew_ring_clear_scalarf, NULL, { NULL }
 };
 
 #if EW_BUILD_AVX2 || EW_BUILD_AVX512
@@ -47,6 +47,8 @@ static const ew_ring_columnsf ew_ring_columns_scalarf = {
 #endif
 
 #if EW_BUILD_AVX2
+#include "edgewise_items_avx2.h"
+
 
 EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2(const double *from, const size_t *start,
 	__m256d column[2])
@@ -81,6 +83,7 @@ EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2f(const float *from, const si
 }
 
 #define EW_ISA(stem) ew_ring_##stem##_avx2
+#define EW_ITEM(degree) ew_ring_moments_##degree##_item_avx2
 #define EW_VECTOR __m256d
 #define EW_ATTRIBUTE EW_ATTRIBUTE_AVX2
 #define EW_ROWS 4
@@ -99,6 +102,7 @@ EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2f(const float *from, const si
 #undef EW_IS_FLOAT
 
 #define EW_ISA(stem) ew_ring_##stem##_avx2f
+#define EW_ITEM(degree) ew_ring_moments_##degree##_item_avx2f
 #define EW_VECTOR __m256
 #define EW_ATTRIBUTE EW_ATTRIBUTE_AVX2
 #define EW_ROWS 8
@@ -121,6 +125,8 @@ EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2f(const float *from, const si
 #endif
 
 #if EW_BUILD_AVX512
+#include "edgewise_items_avx512.h"
+
 /* Four pairs or quadruples of numbers, one in each quarter of a register: loads that blend, which
  * is cheaper than shuffles of whole registers. */
 EW_ATTRIBUTE_AVX512 EW_INLINE __m512 ew_ring_quarters_avx512(const float *a, const float *b,
@@ -171,6 +177,7 @@ EW_ATTRIBUTE_AVX512 EW_INLINE void ew_ring_block_avx512f(const float *from, cons
 }
 
 #define EW_ISA(stem) ew_ring_##stem##_avx512
+#define EW_ITEM(degree) ew_ring_moments_##degree##_item_avx512
 #define EW_VECTOR __m512d
 #define EW_ATTRIBUTE EW_ATTRIBUTE_AVX512
 #define EW_ROWS 8
@@ -191,6 +198,7 @@ EW_ATTRIBUTE_AVX512 EW_INLINE void ew_ring_block_avx512f(const float *from, cons
 #undef EW_IS_FLOAT
 
 #define EW_ISA(stem) ew_ring_##stem##_avx512f
+#define EW_ITEM(degree) ew_ring_moments_##degree##_item_avx512f
 #define EW_VECTOR __m512
 #define EW_ATTRIBUTE EW_ATTRIBUTE_AVX512
 #define EW_ROWS 16
@@ -215,6 +223,7 @@ EW_ATTRIBUTE_AVX512 EW_INLINE void ew_ring_block_avx512f(const float *from, cons
 
 #if EW_BUILD_NEON
 #include <arm_neon.h>
+#include "edgewise_items_neon.h"
 
 EW_INLINE void ew_ring_block_neon(const double *from, const size_t *start, float64x2_t column[2])
 {
@@ -238,6 +247,7 @@ EW_INLINE void ew_ring_block_neonf(const float *from, const size_t *start, float
 }
 
 #define EW_ISA(stem) ew_ring_##stem##_neon
+#define EW_ITEM(degree) ew_ring_moments_##degree##_item_neon
 #define EW_VECTOR float64x2_t
 #define EW_ATTRIBUTE EW_ATTRIBUTE_NEON
 #define EW_ROWS 2
@@ -255,6 +265,7 @@ EW_INLINE void ew_ring_block_neonf(const float *from, const size_t *start, float
 #undef EW_IS_FLOAT
 
 #define EW_ISA(stem) ew_ring_##stem##_neonf
+#define EW_ITEM(degree) ew_ring_moments_##degree##_item_neonf
 #define EW_VECTOR float32x4_t
 #define EW_ATTRIBUTE EW_ATTRIBUTE_NEON
 #define EW_ROWS 4

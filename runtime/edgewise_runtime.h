@@ -14,8 +14,9 @@ enum {
 	EW_SHORT = 24,       /* rings of fewer vertices run in one lane, by definition */
 	EW_STAGE = 256,      /* vertices moved or gathered at a time; not part of the definition */
 	EW_TILE = EW_SHORT + 4,      /* room for the columns of rings side by side */
+	EW_SIDES = 3,                /* degrees from 0 that are summed up in registers */
 	EW_CACHED = 1 << 22,         /* bytes of results that are worth keeping in the caches */
-	EW_AHEAD = 2048              /* bytes of coordinates that are asked for in advance */
+	EW_AHEAD = 256               /* vertices that are asked for in advance */
 };
 
 #define EW_SLACK (1 + 0x1p-48)         /* more than a few roundings of double */
@@ -33,7 +34,9 @@ typedef struct {
  * gather: tile_x[c * width + l] is x of vertex c of the ring of lane l, and its first one again for
  * c >= lengths[l] (not read if shortest is longest); less the first one with `moved`. Columns 0 .. longest + 1 are written, up to
  * EW_TILE may be; vertices from start[l] to 3 places past `longest` may be read. NULL for scalar
- * targets, whose width is 1. */
+ * targets, whose width is 1.
+ * side[degree]: the sums of the kernel for the moments to that degree over such rings, which then
+ * never leave the registers. */
 #define EW_COLUMNS_TYPE(f, real) \
 typedef struct { \
 	size_t width; \
@@ -41,6 +44,8 @@ typedef struct { \
 	void (*clear)(real *to, size_t count); \
 	void (*gather)(const real *x, const real *y, const ew_ring_lanes *lanes, \
 		const real *lengths, int moved, real *tile_x, real *tile_y); \
+	void (*side[EW_SIDES])(const real *x, const real *y, const ew_ring_lanes *lanes, \
+		const real *lengths, int moved, real *sum); \
 } ew_ring_columns##f;
 EW_COLUMNS_TYPE(, double)
 EW_COLUMNS_TYPE(f, float)
