@@ -31,6 +31,7 @@ typedef struct {
 	int far;                               /* larger than the caches */
 	int id, side, moved;                   /* moved: about the first vertex of each ring */
 	EW_RUN *run;
+	ew_ring_divide *divide;
 	ew_ring_finish *finish;                /* of `finished` rings side by side */
 	size_t finished;
 	int32_t most;                          /* a ring of that many vertices does not fit */
@@ -241,12 +242,13 @@ static void EW_LOCAL(begin)(EW_LOCAL(batch) *b, int degree, int moved, const EW_
 	b->moved = moved;
 	b->run = EW_LOCAL(kernel)(b->id, target);
 	b->finish = ew_ring_finish_columns(target, degree, &b->finished);
+	b->divide = ew_ring_divide_of(target);
 	b->by = EW_LOCAL(by_columns)(target);
 	b->far = rings && (size_t)offsets[rings] > EW_CACHED / sizeof *x;
 	b->side = degree < EW_SIDES && b->by->side[degree];
 	b->most = b->by->gather ? EW_SHORT : 3;
 	b->now = 0;
-	memset(b->sum, 0, sizeof b->sum);
+	memset(b->result, 0, sizeof b->result);
 	EW_LOCAL(prepare)(b, 0, &b->group[0]);
 }
 
@@ -316,36 +318,36 @@ int EW_NAME(area_rings)(const EW_REAL *x, const EW_REAL *y, const int32_t *offse
 #if EW_MAX_DEGREE >= 1
 /* Centroids of a group less the first vertices: c[lane], and c[EW_WIDTH + lane] for y.
  * 0 if one of them needs the care of EW_NAME(centroid). */
-static int EW_LOCAL(divide)(const EW_LOCAL(batch) *b, const EW_LOCAL(group) *g, double *c)
+static int EW_LOCAL(quotients)(const EW_LOCAL(batch) *b, const EW_LOCAL(group) *g, double *c)
 {
 	const double *area = b->result, *x = area + EW_WIDTH, *y = x + EW_WIDTH;
 	int careful = 0;
-	for (size_t l = 0; l < EW_WIDTH; ++l) {
-		c[l] = x[l] / area[l];
-		c[EW_WIDTH + l] = y[l] / area[l];
-	}
+	b->divide(x, area, EW_WIDTH, c);
+	b->divide(y, area, EW_WIDTH, c + EW_WIDTH);
 	for (size_t l = 0; l < g->count; ++l)
 		careful |= !EW_LOCAL(is_safe)(area[l], x[l], y[l]);
 	return !careful;
 }
 
-static void EW_LOCAL(put_centroids)(const EW_LOCAL(batch) *b, const EW_LOCAL(group) *g, int past,
+EW_INLINE void EW_LOCAL(put_centroids)(const EW_LOCAL(batch) *b, const EW_LOCAL(group) *g, int past,
 	EW_REAL *cx, EW_REAL *cy)
 {
 	EW_ALIGNED double c[2 * EW_WIDTH];
 	const int32_t *start = b->offsets + g->first;
-	const int divided = EW_LOCAL(divide)(b, g, c);
-	for (size_t l = 0; l < g->count; ++l) {
-		EW_REAL one[2];
-		if (divided) {
-			one[0] = (EW_REAL)((double)b->x[start[l]] + c[l]);
-			one[1] = (EW_REAL)((double)b->y[start[l]] + c[EW_WIDTH + l]);
-		} else
+	if (!EW_LOCAL(quotients)(b, g, c)) {
+		for (size_t l = 0; l < g->count; ++l) {
+			EW_REAL one[2];
 			EW_NAME(centroid)(b->x + start[l], b->y + start[l],
 				EW_LOCAL(ring_size)(b, g->first + l), one);
-		EW_LOCAL(put)(cx + g->first + l, (double)one[0], past);
-		EW_LOCAL(put)(cy + g->first + l, (double)one[1], past);
+			EW_LOCAL(put)(cx + l, (double)one[0], past);
+			EW_LOCAL(put)(cy + l, (double)one[1], past);
+		}
+		return;
 	}
+	for (size_t l = 0; l < g->count; ++l)
+		EW_LOCAL(put)(cx + l, (double)b->x[start[l]] + c[l], past);
+	for (size_t l = 0; l < g->count; ++l)
+		EW_LOCAL(put)(cy + l, (double)b->y[start[l]] + c[EW_WIDTH + l], past);
 }
 
 int EW_NAME(centroid_rings)(const EW_REAL *x, const EW_REAL *y, const int32_t *offsets,
@@ -358,7 +360,10 @@ int EW_NAME(centroid_rings)(const EW_REAL *x, const EW_REAL *y, const int32_t *o
 	EW_LOCAL(batch) b;
 	EW_LOCAL(begin)(&b, 1, 1, x, y, offsets, rings);
 	while ((g = EW_LOCAL(next_group)(&b)) != NULL)
-		EW_LOCAL(put_centroids)(&b, g, past, cx, cy);
+		if (past)
+			EW_LOCAL(put_centroids)(&b, g, 1, cx + g->first, cy + g->first);
+		else
+			EW_LOCAL(put_centroids)(&b, g, 0, cx + g->first, cy + g->first);
 	ew_ring_fence(past);
 	return EW_OK;
 }

@@ -11,15 +11,9 @@
 
 #include <string.h>
 
+#ifdef EW_HAS_DOUBLE
 static void ew_ring_move_scalar(const double *from, size_t stride, double origin, size_t count,
 	double *to)
-{
-	for (size_t i = 0; i < count; ++i)
-		to[i] = from[i * stride] - origin;
-}
-
-static void ew_ring_move_scalarf(const float *from, size_t stride, float origin, size_t count,
-	float *to)
 {
 	for (size_t i = 0; i < count; ++i)
 		to[i] = from[i * stride] - origin;
@@ -30,24 +24,49 @@ static void ew_ring_clear_scalar(double *to, size_t count)
 	memset(to, 0, count * sizeof *to);
 }
 
+static const ew_ring_columns ew_ring_columns_scalar = {
+	1, ew_ring_move_scalar, ew_ring_clear_scalar, NULL, { NULL }
+};
+#endif
+
+#ifdef EW_HAS_FLOAT
+static void ew_ring_move_scalarf(const float *from, size_t stride, float origin, size_t count,
+	float *to)
+{
+	for (size_t i = 0; i < count; ++i)
+		to[i] = from[i * stride] - origin;
+}
+
 static void ew_ring_clear_scalarf(float *to, size_t count)
 {
 	memset(to, 0, count * sizeof *to);
 }
 
-static const ew_ring_columns ew_ring_columns_scalar = {
-	1, ew_ring_move_scalar, ew_ring_clear_scalar, NULL, { NULL }
-};
 static const ew_ring_columnsf ew_ring_columns_scalarf = {
 	1, ew_ring_move_scalarf, ew_ring_clear_scalarf, NULL, { NULL }
 };
+#endif
 
 #if EW_BUILD_AVX2 || EW_BUILD_AVX512
 #include <immintrin.h>
 #endif
 
+static void ew_ring_divide_scalar(const double *a, const double *b, size_t count, double *to)
+{
+	for (size_t i = 0; i < count; ++i)
+		to[i] = a[i] / b[i];
+}
+
 #if EW_BUILD_AVX2
 #include "edgewise_items_avx2.h"
+
+EW_ATTRIBUTE_AVX2 static void ew_ring_divide_avx2(const double *a, const double *b, size_t count,
+	double *to)
+{
+	for (size_t i = 0; i < count; i += 4)
+		_mm256_storeu_pd(to + i, _mm256_div_pd(_mm256_loadu_pd(a + i),
+			_mm256_loadu_pd(b + i)));
+}
 
 
 EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2(const double *from, const size_t *start,
@@ -82,6 +101,7 @@ EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2f(const float *from, const si
 	column[3] = _mm256_shuffle_ps(high01, high23, 0xee);
 }
 
+#ifdef EW_HAS_DOUBLE
 #define EW_ISA(stem) ew_ring_##stem##_avx2
 #define EW_ITEM(degree) ew_ring_moments_##degree##_item_avx2
 #define EW_VECTOR __m256d
@@ -100,7 +120,9 @@ EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2f(const float *from, const si
 #define EW_IS_FLOAT 0
 #include "edgewise_columns_template.h"
 #undef EW_IS_FLOAT
+#endif
 
+#ifdef EW_HAS_FLOAT
 #define EW_ISA(stem) ew_ring_##stem##_avx2f
 #define EW_ITEM(degree) ew_ring_moments_##degree##_item_avx2f
 #define EW_VECTOR __m256
@@ -121,11 +143,20 @@ EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2f(const float *from, const si
 #define EW_IS_FLOAT 1
 #include "edgewise_columns_template.h"
 #undef EW_IS_FLOAT
+#endif
 
 #endif
 
 #if EW_BUILD_AVX512
 #include "edgewise_items_avx512.h"
+
+EW_ATTRIBUTE_AVX512 static void ew_ring_divide_avx512(const double *a, const double *b,
+	size_t count, double *to)
+{
+	for (size_t i = 0; i < count; i += 8)
+		_mm512_storeu_pd(to + i, _mm512_div_pd(_mm512_loadu_pd(a + i),
+			_mm512_loadu_pd(b + i)));
+}
 
 /* Four pairs or quadruples of numbers, one in each quarter of a register: loads that blend, which
  * is cheaper than shuffles of whole registers. */
@@ -176,6 +207,7 @@ EW_ATTRIBUTE_AVX512 EW_INLINE void ew_ring_block_avx512f(const float *from, cons
 	column[3] = _mm512_shuffle_ps(high01, high23, 0xee);
 }
 
+#ifdef EW_HAS_DOUBLE
 #define EW_ISA(stem) ew_ring_##stem##_avx512
 #define EW_ITEM(degree) ew_ring_moments_##degree##_item_avx512
 #define EW_VECTOR __m512d
@@ -196,7 +228,9 @@ EW_ATTRIBUTE_AVX512 EW_INLINE void ew_ring_block_avx512f(const float *from, cons
 #define EW_IS_FLOAT 0
 #include "edgewise_columns_template.h"
 #undef EW_IS_FLOAT
+#endif
 
+#ifdef EW_HAS_FLOAT
 #define EW_ISA(stem) ew_ring_##stem##_avx512f
 #define EW_ITEM(degree) ew_ring_moments_##degree##_item_avx512f
 #define EW_VECTOR __m512
@@ -220,10 +254,17 @@ EW_ATTRIBUTE_AVX512 EW_INLINE void ew_ring_block_avx512f(const float *from, cons
 #include "edgewise_columns_template.h"
 #undef EW_IS_FLOAT
 #endif
+#endif
 
 #if EW_BUILD_NEON
 #include <arm_neon.h>
 #include "edgewise_items_neon.h"
+
+static void ew_ring_divide_neon(const double *a, const double *b, size_t count, double *to)
+{
+	for (size_t i = 0; i < count; i += 2)
+		vst1q_f64(to + i, vdivq_f64(vld1q_f64(a + i), vld1q_f64(b + i)));
+}
 
 EW_INLINE void ew_ring_block_neon(const double *from, const size_t *start, float64x2_t column[2])
 {
@@ -246,6 +287,7 @@ EW_INLINE void ew_ring_block_neonf(const float *from, const size_t *start, float
 	column[3] = vreinterpretq_f32_f64(vzip2q_f64(odd01, odd23));
 }
 
+#ifdef EW_HAS_DOUBLE
 #define EW_ISA(stem) ew_ring_##stem##_neon
 #define EW_ITEM(degree) ew_ring_moments_##degree##_item_neon
 #define EW_VECTOR float64x2_t
@@ -263,7 +305,9 @@ EW_INLINE void ew_ring_block_neonf(const float *from, const size_t *start, float
 #define EW_IS_FLOAT 0
 #include "edgewise_columns_template.h"
 #undef EW_IS_FLOAT
+#endif
 
+#ifdef EW_HAS_FLOAT
 #define EW_ISA(stem) ew_ring_##stem##_neonf
 #define EW_ITEM(degree) ew_ring_moments_##degree##_item_neonf
 #define EW_VECTOR float32x4_t
@@ -282,15 +326,18 @@ EW_INLINE void ew_ring_block_neonf(const float *from, const size_t *start, float
 #include "edgewise_columns_template.h"
 #undef EW_IS_FLOAT
 #endif
+#endif
 
 #define ew_ring_columns_portable ew_ring_columns_scalar
 #define ew_ring_columns_fma ew_ring_columns_scalar
 #define ew_ring_columns_portablef ew_ring_columns_scalarf
 #define ew_ring_columns_fmaf ew_ring_columns_scalarf
+#define ew_ring_divide_portable ew_ring_divide_scalar
+#define ew_ring_divide_fma ew_ring_divide_scalar
 
-const ew_ring_columns *ew_ring_by_columns(unsigned used)
+ew_ring_divide *ew_ring_divide_of(unsigned used)
 {
-#define EW_CASE(TARGET, target, doubles) case EW_##TARGET: return &ew_ring_columns_##target;
+#define EW_CASE(TARGET, target, doubles) case EW_##TARGET: return ew_ring_divide_##target;
 	switch (used) {
 	EW_TARGETS(EW_CASE)
 	default: return NULL;          /* no such target is ever in use */
@@ -298,6 +345,19 @@ const ew_ring_columns *ew_ring_by_columns(unsigned used)
 #undef EW_CASE
 }
 
+#ifdef EW_HAS_DOUBLE
+const ew_ring_columns *ew_ring_by_columns(unsigned used)
+{
+#define EW_CASE(TARGET, target, doubles) case EW_##TARGET: return &ew_ring_columns_##target;
+	switch (used) {
+	EW_TARGETS(EW_CASE)
+	default: return NULL;
+	}
+#undef EW_CASE
+}
+#endif
+
+#ifdef EW_HAS_FLOAT
 const ew_ring_columnsf *ew_ring_by_columnsf(unsigned used)
 {
 #define EW_CASE(TARGET, target, doubles) case EW_##TARGET: return &ew_ring_columns_##target##f;
@@ -307,3 +367,4 @@ const ew_ring_columnsf *ew_ring_by_columnsf(unsigned used)
 	}
 #undef EW_CASE
 }
+#endif

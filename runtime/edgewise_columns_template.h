@@ -73,17 +73,19 @@ EW_ATTRIBUTE static void EW_ISA(gather)(const EW_REAL *x, const EW_REAL *y,
 #undef EW_FILL
 }
 
+#ifdef EW_MAX_DEGREE
 #define EW_SIDE(stem) EW_ISA(stem##_0)
 #define EW_SUMS 2
 #define EW_NEXT(k) EW_ITEM(0)(qy, px, vy, cx, acc + (k) % 2)
 #include "edgewise_sides_template.h"
-#if EW_MAX_DEGREE >= 1
+#endif
+#if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 1
 #define EW_SIDE(stem) EW_ISA(stem##_1)
 #define EW_SUMS 3
 #define EW_NEXT(k) EW_ITEM(1)(px, py, vx, vy, cx, acc)
 #include "edgewise_sides_template.h"
 #endif
-#if EW_MAX_DEGREE >= 2
+#if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 2
 #define EW_SIDE(stem) EW_ISA(stem##_2)
 #define EW_SUMS 6
 #define EW_NEXT(k) EW_ITEM(2)(px, py, vx, vy, cx, acc)
@@ -92,12 +94,16 @@ EW_ATTRIBUTE static void EW_ISA(gather)(const EW_REAL *x, const EW_REAL *y,
 
 static const EW_LOCAL(columns) EW_ISA(columns) = {
 	EW_ROWS, EW_ISA(move), EW_ISA(clear), EW_ISA(gather), {
+#ifdef EW_MAX_DEGREE
 		EW_ISA(side_0),
-#if EW_MAX_DEGREE >= 1
+#else
+		NULL
+#endif
+#if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 1
 		EW_ISA(side_1),
 #endif
-#if EW_MAX_DEGREE >= 2
-		EW_ISA(side_2),
+#if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 2
+		EW_ISA(side_2)
 #endif
 	}
 };

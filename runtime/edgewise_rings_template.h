@@ -187,12 +187,14 @@ static EW_LOCAL(vertices) EW_LOCAL(plain)(const EW_REAL *x, const EW_REAL *y, si
 	return v;
 }
 
+#ifdef EW_MAX_DEGREE
 static void EW_LOCAL(move_to_first)(EW_LOCAL(vertices) *v)
 {
 	v->moved = 1;
 	v->cx = v->x[0];
 	v->cy = v->y[0];
 }
+#endif
 
 static EW_REAL EW_LOCAL(integrate_one)(int id, const EW_REAL *x, const EW_REAL *y, size_t n)
 {
@@ -292,7 +294,8 @@ static EW_REAL EW_LOCAL(unit_scale)(const EW_LOCAL(vertices) *v)
 /* Has no moment left the range of its precision? */
 static int EW_LOCAL(is_safe)(double area, double x, double y)
 {
-	return fabs(area) > 1 / EW_SAFE && fabs(area) < EW_SAFE && x - x == 0 && y - y == 0;
+	const double size = fabs(area), rest = (x - x) + (y - y);
+	return (size > 1 / EW_SAFE) & (size < EW_SAFE) & (rest == 0);
 }
 
 /* Centroid less first vertex into d, and the area; 0 if the area is 0. Moves the vertices to the

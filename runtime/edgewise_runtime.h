@@ -66,6 +66,9 @@ EW_COLUMNS_TYPE(f, float)
 #define EW_INLINE static inline
 #endif
 
+/* to[i] = a[i] / b[i]; count is a multiple of the number of virtual lanes. */
+typedef void ew_ring_divide(const double *a, const double *b, size_t count, double *to);
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -73,6 +76,7 @@ extern "C" {
 unsigned ew_cpu_target(void);  /* the forced target, or the best one: one bit */
 const ew_ring_columns *ew_ring_by_columns(unsigned target);
 const ew_ring_columnsf *ew_ring_by_columnsf(unsigned target);
+ew_ring_divide *ew_ring_divide_of(unsigned target);
 
 #ifdef __cplusplus
 }
