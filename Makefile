@@ -4,6 +4,7 @@
 #   make test        all tests            make bench       against machine and peers
 #   make generated   emit generated/ anew make layers      no object refers upwards in the pipeline
 #   make accept      accept new golden outputs             make clean
+#   make test-cross  the same bits on other machines       make accept-hashes  accept new bits
 # Variables: CC CFLAGS LDFLAGS B (build directory) SAN=1
 # (address and undefined-behaviour sanitizers)
 
@@ -29,7 +30,8 @@ LIB     := $(B)/libedgewise.a
 SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
 MATH    := -lmpfr -lgmp -lm
 
-.PHONY: all library objects generated test deps bench deps-bench layers accept clean
+.PHONY: all library objects generated test test-cross deps bench deps-bench layers accept \
+        accept-hashes clean
 .DELETE_ON_ERROR:
 
 all: library $(B)/shapes
@@ -181,7 +183,16 @@ test: $(PROGRAMS) $(B)/shapes
 		'shapes: $(B)/shapes --exact examples/data/countries.txt | $(B)/tests/shapes' \
 		'command-line: sh tests/cli.sh $(B)/gen' \
 		'same-output: sh tests/same_output.sh $(B)' \
-		'mutation: sh tests/mutation.sh $(B)' 'matrix: sh tests/matrix.sh $(B)'
+		'mutation: sh tests/mutation.sh $(B)' 'matrix: sh tests/matrix.sh $(B)' \
+		'msvc: sh tests/msvc.sh $(B)'
+
+# The emitted library on other machines, by cross compilers and qemu, against tests/hashes.txt.
+test-cross: library
+	@CC='$(CC)' sh tests/run.sh $(B)/tests/logs 'cross: sh tests/cross.sh $(B)'
+
+# After a change of the definition only: it says that different bits are right from now on.
+accept-hashes: library
+	@CC='$(CC)' sh tests/cross.sh $(B) accept
 
 layers: $(B)/gen
 	@sh tests/layers.sh $(B) "$(GEN)"
@@ -189,8 +200,11 @@ layers: $(B)/gen
 accept: $(B)/gen
 	@sh tests/golden.sh $(B) accept
 
-# gmp and mpfr for the reference; the other compilers only widen the compile matrix.
-PACKAGES := gcc g++ clang tcc make binutils libc6-dev libgmp-dev libmpfr-dev
+# gmp and mpfr for the reference; the other compilers only widen the compile matrix; the cross
+# compilers and qemu are for test-cross. (gcc-multilib would remove the cross compilers.)
+PACKAGES := gcc g++ clang tcc make binutils libc6-dev libgmp-dev libmpfr-dev \
+            gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-i686-linux-gnu \
+            libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user
 deps:
 	@if command -v apt-get >/dev/null; then \
 		run=; [ "$$(id -u)" = 0 ] || run=sudo; \

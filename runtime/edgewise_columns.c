@@ -158,7 +158,9 @@ EW_ATTRIBUTE_AVX512 static void ew_ring_divide_avx512(const double *a, const dou
 			_mm512_loadu_pd(b + i)));
 }
 
-/* Four pairs or quadruples of numbers, one in each quarter of a register: loads that blend, which
+/* maskz below: some compilers warn about the undefined operand inside the plain intrinsic.
+ *
+ * Four pairs or quadruples of numbers, one in each quarter of a register: loads that blend, which
  * is cheaper than shuffles of whole registers. */
 EW_ATTRIBUTE_AVX512 EW_INLINE __m512 ew_ring_quarters_avx512(const float *a, const float *b,
 	const float *c, const float *d)
@@ -182,8 +184,8 @@ EW_ATTRIBUTE_AVX512 EW_INLINE void ew_ring_block_avx512(const double *from, cons
 {
 	const __m512d even = ew_ring_pairs_avx512(from, start);
 	const __m512d odd = ew_ring_pairs_avx512(from, start + 1);
-	column[0] = _mm512_unpacklo_pd(even, odd);
-	column[1] = _mm512_unpackhi_pd(even, odd);
+	column[0] = _mm512_maskz_unpacklo_pd(0xff, even, odd);
+	column[1] = _mm512_maskz_unpackhi_pd(0xff, even, odd);
 }
 
 EW_ATTRIBUTE_AVX512 EW_INLINE __m512 ew_ring_rows_avx512f(const float *from, const size_t *start)
@@ -199,8 +201,10 @@ EW_ATTRIBUTE_AVX512 EW_INLINE void ew_ring_block_avx512f(const float *from, cons
 	const __m512 r1 = ew_ring_rows_avx512f(from, start + 1);
 	const __m512 r2 = ew_ring_rows_avx512f(from, start + 2);
 	const __m512 r3 = ew_ring_rows_avx512f(from, start + 3);
-	const __m512 low01 = _mm512_unpacklo_ps(r0, r1), high01 = _mm512_unpackhi_ps(r0, r1);
-	const __m512 low23 = _mm512_unpacklo_ps(r2, r3), high23 = _mm512_unpackhi_ps(r2, r3);
+	const __m512 low01 = _mm512_maskz_unpacklo_ps(0xffff, r0, r1);
+	const __m512 high01 = _mm512_maskz_unpackhi_ps(0xffff, r0, r1);
+	const __m512 low23 = _mm512_maskz_unpacklo_ps(0xffff, r2, r3);
+	const __m512 high23 = _mm512_maskz_unpackhi_ps(0xffff, r2, r3);
 	column[0] = _mm512_shuffle_ps(low01, low23, 0x44);
 	column[1] = _mm512_shuffle_ps(low01, low23, 0xee);
 	column[2] = _mm512_shuffle_ps(high01, high23, 0x44);

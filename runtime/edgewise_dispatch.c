@@ -42,7 +42,7 @@ static void ew_cpu_id(unsigned leaf, unsigned r[4])
 static unsigned ew_cpu_xcr0(void)
 {
 	unsigned low, high;
-	__asm__("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
+	__asm__ volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
 	return low;
 }
 #endif
@@ -50,7 +50,7 @@ static unsigned ew_cpu_xcr0(void)
 static unsigned ew_cpu_detect(void)
 {
 	enum { FMA = 1u << 12, OSXSAVE = 1u << 27, AVX = 1u << 28 };
-	enum { AVX2 = 1u << 5, AVX512F = 1u << 16 };
+	enum { AVX2 = 1u << 5, AVX512 = AVX2 | 1u << 16 };     /* F; compilers imply AVX2 with it */
 	enum { YMM = 0x6, ZMM = 0xe6 };    /* register state that the system saves, in XCR0 */
 	unsigned r[4] = { 0, 0, 0, 0 }, found = EW_PORTABLE, leaves;
 	ew_cpu_id(0, r);
@@ -65,7 +65,8 @@ static unsigned ew_cpu_detect(void)
 		return found;
 	ew_cpu_id(7, r);
 	found |= EW_BUILD_AVX2 && r[1] & AVX2 ? EW_AVX2 : 0;
-	found |= EW_BUILD_AVX512 && r[1] & AVX512F && (ew_cpu_xcr0() & ZMM) == ZMM ? EW_AVX512 : 0;
+	found |= EW_BUILD_AVX512 && (r[1] & AVX512) == AVX512 && (ew_cpu_xcr0() & ZMM) == ZMM
+		? EW_AVX512 : 0;
 	return found;
 }
 #else

@@ -3,7 +3,8 @@
  *
  * EW_REAL; EW_NAME(stem) a public function with its suffix, EW_LOCAL(stem) one of ours; EW_RUN the
  * type of a kernel; EW_WIDTH the number of virtual lanes; EW_LIST(TARGET) the kernels of a target;
- * EW_UNIT the unit roundoff, EW_TINY the smallest number. Areas between 1 / EW_SAFE and EW_SAFE are far from overflow and underflow.
+ * EW_UNIT the unit roundoff, EW_TINY the smallest number. Areas between 1 / EW_SAFE and EW_SAFE are
+ * far from overflow and underflow.
  *
  * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 #undef EW_REAL

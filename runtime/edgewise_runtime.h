@@ -32,9 +32,9 @@ typedef struct {
  * move: to[i] = from[i * stride] - origin, stride 1 or 2.
  * clear: to[i] = 0; count is a multiple of the number of virtual lanes.
  * gather: tile_x[c * width + l] is x of vertex c of the ring of lane l, and its first one again for
- * c >= lengths[l] (not read if shortest is longest); less the first one with `moved`. Columns 0 .. longest + 1 are written, up to
- * EW_TILE may be; vertices from start[l] to 3 places past `longest` may be read. NULL for scalar
- * targets, whose width is 1.
+ * c >= lengths[l] (not read if shortest is longest); less the first one with `moved`. Columns
+ * 0 .. longest + 1 are written, up to EW_TILE may be; vertices from start[l] to 3 places past
+ * `longest` may be read. NULL for scalar targets, whose width is 1.
  * side[degree]: the sums of the kernel for the moments to that degree over such rings, which then
  * never leave the registers. */
 #define EW_COLUMNS_TYPE(f, real) \

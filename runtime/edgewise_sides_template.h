@@ -1,5 +1,5 @@
-/* edgewise_sides_template.h - rings side by side, transposed and summed up in registers; included by
- * edgewise_columns_template.h once per low degree.
+/* edgewise_sides_template.h - rings side by side, transposed and summed up in registers; included
+ * by edgewise_columns_template.h once per low degree.
  *
  * EW_SIDE(stem) names what belongs to the degree, EW_SUMS counts its accumulators, and
  * EW_NEXT(k) takes column k of a block: vertex j of every ring, in (vx, vy), behind (px, py) and qy

@@ -1,9 +1,10 @@
 /* hash.c - prints one hash of the bits of many results per target, and one for the single edges.
  *
- * tests/matrix.sh compares them between compilers, language standards and levels of optimisation:
- * a contracted a * b + c, a reassociated sum or a literal read wrongly changes them. Inputs come
- * from an integer generator, so no rounding takes part before the library; all are finite, since
- * the sign of a NaN is nobody's promise. This file is C99 and C++17 alike.
+ * tests/matrix.sh compares them between compilers, language standards and levels of optimisation,
+ * tests/cross.sh between machines and with tests/hashes.txt: a contracted a * b + c, a
+ * reassociated sum or a literal read wrongly changes them. Inputs come from an integer generator,
+ * so no rounding takes part before the library; all are finite. Neither do the order of bytes and
+ * the kind of a NaN, which a ring without area gives. This file is C99 and C++17 alike.
  */
 #include "edgewise.h"
 #include "edgewise_kernels.h"
@@ -15,20 +16,38 @@
 #define FNV_BASIS 0xcbf29ce484222325u
 #define FNV_PRIME 0x100000001b3u
 
-enum { MOST = 2100, MOMENTS = EW_MOMENTS(EW_MAX_DEGREE), KINDS = 3 };
+enum {
+	MOST = 2100, MOMENTS = EW_MOMENTS(EW_MAX_DEGREE), KINDS = 3,
+	FIRST = 3, GROWING = 31, MIXED = 24, LONG = 3, BATCH = GROWING + MIXED + LONG
+};
 
-static const size_t sizes[] = { 0, 2, 3, 4, 7, 8, 9, 16, 17, 40, 257, 1040, MOST };
+static const size_t sizes[] = { 0, 2, 3, 4, 7, 8, 9, 16, 17, 23, 24, 40, 257, 1040, MOST };
 
 static double x[MOST], y[MOST], xy[2 * MOST];
 static float xf[MOST], yf[MOST], xyf[2 * MOST];
+static int32_t offsets[BATCH + 1];
 static uint64_t hash, state;
 
-static void add(const void *data, size_t size)
+static void add_bits(uint64_t bits)
 {
-	const unsigned char *byte = (const unsigned char *)data;
-	for (size_t i = 0; i < size; i++)
-		hash = (hash ^ byte[i]) * FNV_PRIME;
+	hash = (hash ^ bits) * FNV_PRIME;
+	hash ^= hash >> 32;
 }
+
+/* Values as the integers their bits spell, so that the order of bytes takes no part; any NaN
+ * counts as the same one, since its sign and payload are nobody's promise. */
+#define ADD(REAL, f, WORD) \
+static void add##f(const REAL *value, size_t count) \
+{ \
+	for (size_t i = 0; i < count; i++) { \
+		WORD bits; \
+		memcpy(&bits, &value[i], sizeof bits); \
+		add_bits(value[i] == value[i] ? bits : (uint64_t)-1); \
+	} \
+}
+
+ADD(double, , uint64_t)
+ADD(float, f, uint32_t)
 
 /* Multiples of 2^-23 in [-1,1) for kind 0, of full width for kind 1,
  * integers in -8..8 for kind 2. */
@@ -41,46 +60,93 @@ static double coordinate(int kind)
 	return kind == 1 ? (double)bits * 0x1p-51 : (double)(bits % 17) - 8;
 }
 
-static void fill(size_t n, int kind)
+static void place(size_t i, double px, double py)
 {
-	for (size_t i = 0; i < n; i++) {
-		xy[2 * i] = x[i] = coordinate(kind);
-		xy[2 * i + 1] = y[i] = coordinate(kind);
-		xyf[2 * i] = xf[i] = (float)x[i];
-		xyf[2 * i + 1] = yf[i] = (float)y[i];
-	}
+	xy[2 * i] = x[i] = px;
+	xy[2 * i + 1] = y[i] = py;
+	xyf[2 * i] = xf[i] = (float)px;
+	xyf[2 * i + 1] = yf[i] = (float)py;
 }
 
-/* All functions of one precision, for a ring of n vertices; central moments want an area. */
+/* The vertices begin .. end-1; integers close the ring by its first vertex. */
+static void fill(size_t begin, size_t end, int kind)
+{
+	for (size_t i = begin; i < end; i++) {
+		const double px = coordinate(kind), py = coordinate(kind);
+		place(i, px, py);
+	}
+	if (kind == 2 && begin < end)
+		place(end - 1, x[begin], y[begin]);
+}
+
+/* All functions of one precision, for a ring of n vertices. */
 #define RINGS(REAL, f) \
 static void add_rings##f(size_t n) \
 { \
-	REAL out[MOMENTS], moved[MOMENTS], c[2], one; \
+	REAL out[MOMENTS], moved[MOMENTS], bound[MOMENTS], c[2], one; \
 	for (int degree = 0; degree <= EW_MAX_DEGREE; degree++) { \
-		const size_t size = (size_t)EW_MOMENTS(degree) * sizeof *out; \
+		const size_t size = (size_t)EW_MOMENTS(degree); \
 		ew_moments##f(degree, x##f, y##f, n, out); \
-		add(out, size); \
+		add##f(out, size); \
+		add_bits((uint64_t)ew_moments_bounded##f(degree, x##f, y##f, n, out, bound)); \
+		add##f(out, size); \
+		add##f(bound, size); \
 		ew_translate_moments##f(degree, out, (REAL)0.75, (REAL)-1.3, moved); \
-		add(moved, size); \
+		add##f(moved, size); \
 		ew_moments_about##f(degree, x##f, y##f, n, (REAL)0.1, (REAL)0.7, out); \
-		add(out, size); \
+		add##f(out, size); \
 		ew_moments_xy##f(degree, xy##f, n, out); \
-		add(out, size); \
-		if (n > 2 && ew_central_moments##f(degree, x##f, y##f, n, c, out) == EW_OK) \
-			add(out, size); \
+		add##f(out, size); \
+		add_bits((uint64_t)ew_central_moments##f(degree, x##f, y##f, n, c, out)); \
+		add##f(c, 2); \
+		add##f(out, size); \
 		for (int k = 0; k <= degree; k++) { \
 			one = ew_moment##f(degree - k, k, x##f, y##f, n); \
-			add(&one, sizeof one); \
+			add##f(&one, 1); \
 		} \
 	} \
 	one = ew_area##f(x##f, y##f, n); \
-	add(&one, sizeof one); \
-	if (n > 2 && ew_centroid##f(x##f, y##f, n, c) == EW_OK) \
-		add(c, sizeof c); \
+	add##f(&one, 1); \
+	one = ew_area_compensated##f(x##f, y##f, n); \
+	add##f(&one, 1); \
+	add_bits((uint64_t)ew_centroid##f(x##f, y##f, n, c)); \
+	add##f(c, 2); \
 }
 
 RINGS(double, )
 RINGS(float, f)
+
+/* A batch begins at vertex FIRST: rings of 0 to 30 vertices, then of 4 to 12 mixed, then long
+ * ones. */
+static void fill_batch(int kind)
+{
+	static const int32_t lengths[LONG] = { 64, 257, 1040 };
+	offsets[0] = FIRST;
+	for (int i = 0; i < BATCH; i++) {
+		const int32_t length = i < GROWING ? i : i < GROWING + MIXED ? 4 + i * 7 % 9
+			: lengths[i - GROWING - MIXED];
+		offsets[i + 1] = offsets[i] + length;
+		fill((size_t)offsets[i], (size_t)offsets[i + 1], kind);
+	}
+}
+
+#define BATCHES(REAL, f) \
+static void add_batches##f(void) \
+{ \
+	static REAL out[BATCH * MOMENTS], cy[BATCH]; \
+	for (int degree = 0; degree <= EW_MAX_DEGREE; degree++) { \
+		add_bits((uint64_t)ew_moments_rings##f(degree, x##f, y##f, offsets, BATCH, out)); \
+		add##f(out, (size_t)BATCH * (size_t)EW_MOMENTS(degree)); \
+	} \
+	add_bits((uint64_t)ew_area_rings##f(x##f, y##f, offsets, BATCH, out)); \
+	add##f(out, BATCH); \
+	add_bits((uint64_t)ew_centroid_rings##f(x##f, y##f, offsets, BATCH, out, cy)); \
+	add##f(out, BATCH); \
+	add##f(cy, BATCH); \
+}
+
+BATCHES(double, )
+BATCHES(float, f)
 
 static void add_edges(void)
 {
@@ -89,12 +155,12 @@ static void add_edges(void)
 	for (size_t i = 0; i + 1 < MOST; i++) {
 #define EDGE(m, n, symbol, k) \
 		value = symbol(x[i], y[i], x[i + 1], y[i + 1]); \
-		add(&value, sizeof value);
+		add(&value, 1);
 		EW_LINES_DOUBLE(EDGE)
 #undef EDGE
 #define EDGE(m, n, symbol, k) \
 		valuef = symbol(xf[i], yf[i], xf[i + 1], yf[i + 1]); \
-		add(&valuef, sizeof valuef);
+		addf(&valuef, 1);
 		EW_LINES_FLOAT(EDGE)
 #undef EDGE
 	}
@@ -106,6 +172,21 @@ static void print_hash(const char *name)
 		(unsigned long)(hash & 0xffffffffu));
 }
 
+static void add_all(void)
+{
+	for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+		for (int kind = 0; kind < KINDS; kind++) {
+			fill(0, sizes[i], kind);
+			add_rings(sizes[i]);
+			add_ringsf(sizes[i]);
+		}
+	for (int kind = 0; kind < KINDS; kind++) {
+		fill_batch(kind);
+		add_batches();
+		add_batchesf();
+	}
+}
+
 int main(void)
 {
 	for (unsigned target = 1; target && target <= ew_targets(); target *= 2) {
@@ -113,17 +194,13 @@ int main(void)
 			continue;
 		hash = FNV_BASIS;
 		state = 1;
-		for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
-			for (int kind = 0; kind < KINDS; kind++) {
-				fill(sizes[i], kind);
-				add_rings(sizes[i]);
-				add_ringsf(sizes[i]);
-			}
+		add_all();
 		print_hash(ew_target_name(target));
 	}
 	hash = FNV_BASIS;
+	state = 1;
 	for (int kind = 0; kind < KINDS; kind++) {
-		fill(MOST, kind);
+		fill(0, MOST, kind);
 		add_edges();
 	}
 	print_hash("edges");
