@@ -89,7 +89,8 @@ static void EW_LOCAL(run_short)(int id, const EW_LOCAL(vertices) *v, const EW_RE
 	EW_RUN *run = EW_LOCAL(kernel)(id, ew_ring_scalar(ew_cpu_target()));
 	EW_REAL x[EW_SHORT + 2], y[EW_SHORT + 2];
 	EW_ALIGNED EW_REAL sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
-	memset(sum, 0, (size_t)shape->accumulators * EW_WIDTH * sizeof *sum);
+	EW_LOCAL(by_columns)(ew_cpu_target())->clear(sum,
+		(size_t)shape->accumulators * EW_WIDTH);
 	EW_LOCAL(stage)(v, 0, v->n + 1, x, y);
 	run(x, y, origin, 1, 1, v->n + 2 - (size_t)shape->window, sum);
 	for (int k = 0; k < shape->accumulators; ++k)
@@ -106,19 +107,25 @@ static void EW_LOCAL(run_lanes)(int id, const EW_LOCAL(vertices) *v, const EW_RE
 	const size_t reach = (size_t)shape->window - 1, items = v->n + 1 - reach;
 	const size_t step = (size_t)shape->turns * EW_WIDTH;
 	const size_t direct = v->moved || v->stride != 1 ? 0 : (v->n - reach) / step * step;
+	const EW_LOCAL(columns) *by = EW_LOCAL(by_columns)(ew_cpu_target());
+#if EW_IS_FLOAT
 	EW_ALIGNED EW_REAL sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
-	memset(sum, 0, cells * sizeof *sum);
 	memset(wide, 0, cells * sizeof *wide);
+#else
+	double *const sum = wide;
+#endif
+	by->clear(sum, cells);
 	for (size_t start = 0; start < items; start += EW_BLOCK) {
 		size_t end = items - start < EW_BLOCK ? items : start + (size_t)EW_BLOCK;
 		size_t middle = direct < start ? start : direct < end ? direct : end;
 		if (middle > start)
 			run(v->x + start, v->y + start, origin, 1, EW_WIDTH, middle - start, sum);
 		EW_LOCAL(run_staged)(run, v, shape->window, origin, middle, end, sum);
-		for (size_t i = 0; i < cells && (EW_IS_FLOAT || end == items); ++i) {
+#if EW_IS_FLOAT
+		for (size_t i = 0; i < cells; ++i)
 			wide[i] += (double)sum[i];
-			sum[i] = 0;
-		}
+		by->clear(sum, cells);
+#endif
 	}
 }
 
@@ -137,7 +144,7 @@ static void EW_LOCAL(run_items)(int id, const EW_LOCAL(vertices) *v, double *wid
 /* Sums of all accumulators. */
 static void EW_LOCAL(run_ring)(int id, const EW_LOCAL(vertices) *v, double *total)
 {
-	double wide[EW_MAX_ACCUMULATORS * EW_WIDTH];
+	EW_ALIGNED double wide[EW_MAX_ACCUMULATORS * EW_WIDTH];
 	EW_LOCAL(run_items)(id, v, wide);
 	for (int k = 0; k < ew_ring_shapes[id].accumulators; ++k) {
 		double *lane = wide + k * EW_WIDTH;
