@@ -152,7 +152,7 @@ deps-bench:
 
 # ---- tests ----
 
-RING_TESTS := rings lanes central ring_contract long_rings
+RING_TESTS := rings lanes central ring_contract long_rings kernels batches trust
 PROGRAMS   := $(addprefix $(B)/tests/,units lines polynomials shapes $(RING_TESTS))
 TEST_BUILD  = $(CC) -std=gnu11 -Wall -Wextra -ffp-contract=off $(SANITIZE) $(CFLAGS) -Itests
 

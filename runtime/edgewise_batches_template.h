@@ -192,17 +192,34 @@ static void EW_LOCAL(run_group)(EW_LOCAL(batch) *b, const EW_LOCAL(group) *g)
 		b->finish(wide + l, b->result + l, EW_WIDTH);
 }
 
-static void EW_LOCAL(run_left_out)(EW_LOCAL(batch) *b, const EW_LOCAL(group) *g)
+/* Rings that were left out, and rings whose results are not finite: what stands behind the last
+ * vertex adds 0 only as long as nothing overflows. */
+static void EW_LOCAL(run_single)(EW_LOCAL(batch) *b, const EW_LOCAL(group) *g)
 {
+	const int outputs = ew_ring_shapes[b->id].outputs;
 	double result[EW_MAX_OUTPUTS];
-	for (size_t l = 0; l < g->count; ++l) {
-		if (g->length[l] > 0)
+	for (int l = 0; l < (int)g->count; ++l) {
+		int done = !g->left_out || g->length[l] > 0;
+		for (int j = 0; j < outputs && done; ++j)
+			done = b->result[j * EW_WIDTH + l] - b->result[j * EW_WIDTH + l] == 0;
+		if (done)
 			continue;
-		EW_LOCAL(vertices) v = EW_LOCAL(ring_vertices)(b, g->first + l);
+		EW_LOCAL(vertices) v = EW_LOCAL(ring_vertices)(b, g->first + (size_t)l);
 		EW_LOCAL(integrate)(b->id, &v, result);
-		for (int j = 0; j < ew_ring_shapes[b->id].outputs; ++j)
-			b->result[j * EW_WIDTH + (int)l] = result[j];
+		for (int j = 0; j < outputs; ++j)
+			b->result[j * EW_WIDTH + l] = result[j];
 	}
+}
+
+static int EW_LOCAL(is_finite)(const EW_LOCAL(batch) *b)
+{
+	const int count = ew_ring_shapes[b->id].outputs * EW_WIDTH;
+	double even = 0, odd = 0;
+	for (int i = 0; i < count; i += 2) {
+		even += b->result[i] - b->result[i];
+		odd += b->result[i + 1] - b->result[i + 1];
+	}
+	return even + odd == 0;
 }
 
 /* The next group, with its results in b->result; NULL when no ring is left. */
@@ -215,8 +232,8 @@ static const EW_LOCAL(group) *EW_LOCAL(next_group)(EW_LOCAL(batch) *b)
 	EW_LOCAL(prepare)(b, g->first + g->count, &b->group[b->now]);
 	if (g->lanes.longest)
 		EW_LOCAL(run_group)(b, g);
-	if (g->left_out)
-		EW_LOCAL(run_left_out)(b, g);
+	if (g->left_out || !EW_LOCAL(is_finite)(b))
+		EW_LOCAL(run_single)(b, g);
 	return g;
 }
 

@@ -25,6 +25,11 @@ static inline bool expect_within(double got, const Ref *want, long k, int bits, 
 		mpq_get_d(want->value), ref_units(got, want, bits), k);
 }
 
+static inline double gamma_of(long k, int bits)
+{
+	return (double)k / (ldexp(1, bits) - (double)k);
+}
+
 /* Equal bits, except that the two zeros are one. */
 static inline bool same_bits(double a, double b)
 {

@@ -28,11 +28,6 @@ typedef struct {
 	mpq_t mean[2];          /* centroid */
 } Local;
 
-static double gamma_of(long k, int bits)
-{
-	return (double)k / (ldexp(1, bits) - (double)k);
-}
-
 /* |got - want|, rounded once; infinite if got is */
 static double error_of(double got, const mpq_t want)
 {

@@ -8,47 +8,27 @@
 # holds an emission and foreign files, and nothing there may change. Every option that gen --help
 # names must occur in both files.
 
-here=$(cd "$(dirname "$0")" && pwd)
+. "$(dirname "$0")/verdict.sh"
 LC_ALL=C
 export LC_ALL
-unset MAKEFLAGS MFLAGS MAKELEVEL
-work=$(mktemp -d) || exit 1
 clean_up() {
 	umount "$work/small" "$work/readonly" 2>/dev/null
 	rm -rf "$work"
 }
 trap clean_up EXIT
-trap 'exit 1' HUP INT TERM
 
 mkdir "$work/bin"
 cp "${1:-build/gen}" "$work/bin/gen" || exit 1
 GEN=$work/bin/gen
 CC=${CC:-cc}
 CXX=${CXX:-c++}
-passed=0
-failed=0
 limit=
-command -v timeout >/dev/null && limit='timeout 20'
+has timeout && limit='timeout 20'
 
 # ---- helpers ----
 
 gen() {
 	$limit "$GEN" "$@"
-}
-
-# NAME [PROBLEM]: counts a test; it failed if there is a problem.
-verdict() {
-	if [ -z "${2:-}" ]; then
-		passed=$((passed + 1))
-		echo "ok $1"
-	else
-		failed=$((failed + 1))
-		echo "not ok $1: $2"
-	fi
-}
-
-skip() {
-	echo "skip $1: $2"
 }
 
 # NAME: runs the function NAME in a fresh folder; its first failing command fails the test.
@@ -222,7 +202,7 @@ precision() {
 		symbols alone >$d.symbols
 	done
 	sort -u d.symbols f.symbols | cmp - both.symbols
-	comm -12 d.symbols f.symbols | refute grep -vE '_finish$|target|^ew_version$'
+	comm -12 d.symbols f.symbols | refute grep -vE '_finish(_[a-z0-9]+)?$|_k$|target|^ew_version$'
 	refute grep -q '^float' d/edgewise.h
 	refute grep -q '^double' f/edgewise.h
 }
@@ -260,6 +240,53 @@ prefix() {
 	refute grep -niE '(^|[^a-z0-9_])ew_|edgewise' foo.h
 }
 check prefix
+
+# SCHEME DEGREE2 X4Y2: the scheme asked for, and what two kernels get.
+scheme_gives() {
+	gen --max-degree 2 --monomial x4y2 --scheme "$1" --out "$1"
+	grep -q "gen --max-degree 2 --monomial x4y2 --scheme $1\$" "$1/edgewise.h"
+	sed -n 's/.*"ring": "\(moments_2\|x4y2\)".*"scheme": "\([^"]*\)".*/\1 \2/p' \
+		"$1/edgewise_manifest.json" >got
+	printf 'moments_2 %s\nx4y2 %s\n' "$2" "$3" | diff got -
+}
+
+scheme() {
+	scheme_gives matrix matrix matrix
+	scheme_gives horner shared horner
+	scheme_gives even-power even-power even-power
+	scheme_gives shared shared even-power
+	scheme_gives recurrence recurrence even-power
+	scheme_gives vertex shared even-power
+	gen --max-degree 2 --monomial x4y2 --out cheapest
+	for file in cheapest/edgewise_moments_fma.c cheapest/edgewise_integrands_fma.c; do
+		sed 's/ --scheme vertex$//' "vertex/${file#*/}" | cmp - "$file"
+	done
+}
+check scheme
+
+# Far from the origin the area must stay within its bound, however it is computed.
+area_of_any_scheme() {
+	cat >main.c <<-END
+		#include "edgewise.h"
+		#include <math.h>
+		int main(void)
+		{
+			const double side = 10 + 0x1p-20, x0 = 5e5, y0 = 4e6;
+			const double x[] = { x0, x0 + side, x0 + side, x0 };
+			const double y[] = { y0, y0, y0 + side, y0 + side };
+			double out[1], bound[1];
+			ew_moments_bounded(0, x, y, 4, out, bound);
+			return !(out[0] == ew_area(x, y, 4)
+				&& fabs(out[0] - (x[1] - x0) * (y[2] - y0)) <= bound[0]);
+		}
+	END
+	for name in matrix even-power recurrence vertex; do
+		gen --max-degree 1 --scheme $name --out $name
+		$CC -I $name -o main main.c $name/*.c -lm
+		./main || { echo "not with $name"; return 1; }
+	done
+}
+check area_of_any_scheme
 
 two_prefixes_in_one_program() {
 	gen --prefix foo --max-degree 2 --out foo
@@ -313,7 +340,7 @@ check single_header_as_C99
 single_header_as_CXX17() {
 	single_header_with $CXX -x c++ -std=c++17
 }
-if command -v "${CXX%% *}" >/dev/null; then
+if has "${CXX%% *}"; then
 	check single_header_as_CXX17
 else
 	skip 'single header as CXX17' 'no C++ compiler'
@@ -451,8 +478,8 @@ list_help_version() {
 	tr -cs 'a-z-' '\n' <../help | grep '^--[a-z]' | sort -u >../options
 	[ "$(wc -l <../options)" -ge 20 ]
 	while read -r option; do
-		grep -q -e "$option" "$here/cli_errors.sh"
-		grep -q -e "$option" "$here/cli.sh"
+		grep -q -e "$option" "$tests/cli_errors.sh"
+		grep -q -e "$option" "$tests/cli.sh"
 	done <../options
 }
 check list_help_version
@@ -572,7 +599,6 @@ link_to_a_file_outside() {
 }
 check link_to_a_file_outside
 
-. "$here/cli_errors.sh"
+. "$tests/cli_errors.sh"
 
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+finish

@@ -113,7 +113,7 @@ expect_error 'unknown short option' 2 "'-x'" -x
 expect_error 'operand' 2 "'file'" file
 expect_error 'empty option' 2 "''" ''
 for option in --max-degree --families --monomial --polynomial --precision --targets --prefix --out \
-	--single-header --manifest --depfile --show --format -d; do
+	--scheme --single-header --manifest --depfile --show --format -d; do
 	expect_error "$option without value" 2 "$option" "$option"
 	[ $option = --monomial ] || expect_error "$option with empty value" 2 "$option" "$option" ''
 done
@@ -122,7 +122,7 @@ for option in --no-runtime --check --dry-run --list --quiet --verbose --help --v
 	expect_error "$option with value" 2 "$option" "$option=1"
 done
 for option in '--max-degree 2' '--families moments' '--precision double' '--targets fma' \
-	'--prefix foo' '--out new' '--single-header new' '--manifest new' '--depfile new' \
+	'--scheme horner' '--prefix foo' '--out new' '--single-header new' '--manifest new' '--depfile new' \
 	'--show x1y0' '-d p'; do
 	# shellcheck disable=SC2086
 	expect_error "${option% *} twice" 2 "${option% *} is given twice" $option $option
@@ -142,6 +142,9 @@ expect_error '--families with unknown word' 2 "'curves'" --families moments,curv
 expect_error '--families with trailing comma' 2 "''" --families moments,
 expect_error '--precision with unknown word' 2 "'half'" --precision half
 expect_error '--targets with unknown word' 2 "'avx3'" --targets portable,avx3
+expect_error '--scheme with unknown word' 2 "unknown word 'fast'; known: matrix, horner," --scheme fast
+expect_error '--scheme with two words' 2 "'matrix,horner'" --scheme matrix,horner
+expect_error '--show with --scheme' 2 '--scheme' --show x4y2 --scheme matrix
 for option in '--manifest new --depfile new' '--single-header new --manifest new' \
 	'--manifest generated/edgewise.h' '--depfile new --single-header ./new'; do
 	# shellcheck disable=SC2086
@@ -325,7 +328,7 @@ small_disk() {
 		--depfile "$small/absent/d"
 	diff -r d kept
 }
-if mount -t tmpfs -o size=64k tmpfs "$work/small" 2>/dev/null; then
+if mount -t tmpfs -o size=256k tmpfs "$work/small" 2>/dev/null; then
 	check small_disk
 	umount "$work/small"
 else

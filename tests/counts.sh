@@ -3,15 +3,18 @@
 #
 #     sh tests/counts.sh [BUILD]
 #
-# fma(, *, binary + and binary - in the loop body of every ring kernel, and in every single-edge
-# function, against the comment above it, the manifest and the list in edgewise_kernels.h;
-# the moments of the fma target also against the promised bars (vector targets print its program). Loads and loop headers are not
-# operations, nor is the sign inside a constant or before an operand.
+# Multiplications, fused operations and additions in every single-edge function and in every loop
+# of every ring kernel, against the comment above it, the manifest and the list in
+# edgewise_kernels.h. A loop says in its header how many items it takes at a time: a kernel has up
+# to three (vectors shifted into place, whole vectors, the rest), and the vertex form and the stored
+# shape take two items at a time. Moments on targets with FMA are also held against the promised
+# bars. Scalar targets spell operations as C operators, vector targets as intrinsics. Loads, stores
+# and loop headers are not operations, nor is the sign inside a constant or before an operand. An
+# absolute value costs nothing; there must be as many of them as in the kernel of target fma. What
+# ew_ring_lost takes is counted in the list, where it stands.
 set -u
 build=${1:-build}
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 1' HUP INT TERM
+. "$(dirname "$0")/verdict.sh"
 
 cat >"$work/counts.awk" <<'END'
 BEGIN {                                              # all moments to degree N, FMA pipe and adds
@@ -43,52 +46,95 @@ function json_cost(json, target) {
 	return value(json, "mul") " mul " value(json, "fma") " fma " value(json, "add") " add"
 }
 
-# Sets mul, fma, add.
-function count(body) {
+# Add to mul, fma, add, absolute.
+function count_scalar(text) {
+	lost = gsub(/ew_ring_lostf?\(/, "(", text)
+	fma += gsub(/fmaf?\(/, "(", text)
+	absolute += gsub(/fabsf?\(/, "(", text)
+	mul += gsub(/\*/, ",", text) + lost * lost_mul
+	add += gsub(/[]A-Za-z0-9_)][ \t]*[-+]/, ",", text) + lost * lost_add
+}
+
+function count_vector(text) {
+	absolute += gsub(/_max_p[sd]\([a-z0-9_]+,[ \t]*_mm[0-9]*_sub_p[sd]\(_mm[0-9]*_setzero_/, "(", text)
+	absolute += gsub(/vabsq_f/, "(", text)
+	fma += gsub(/_fn?m(add|sub)_p|vfm[as]q_f/, "(", text)
+	mul += gsub(/_mul_p|vmulq_/, "(", text)
+	add += gsub(/_(add|sub)_p|v(add|sub)q_/, "(", text)
+	stray += gsub(/[]A-Za-z0-9_)] [-+*\/] |_max_|_div_|vmaxq|vdivq/, "(", text)
+}
+
+function count(body, vector) {
+	mul = fma = add = absolute = stray = 0
 	gsub(/\/\*[^*]*\*\//, "", body)
 	gsub(/0x[0-9a-f.]+p[-+][0-9]+f?/, "1", body)
 	gsub(/return/, "=", body)
-	fma = gsub(/fmaf?\(/, "(", body)
-	mul = gsub(/\*/, ",", body)
-	add = gsub(/[]A-Za-z0-9_)][ \t]*[-+]/, ",", body)
+	gsub(/if \([^)]*\) [{]/, "", body)
+	statements = split(body, statement, ";")
+	for (at = 1; at <= statements; at++) {
+		if (vector && statement[at] !~ /loadu|storeu|vld1q|vst1q|pad|size_t|mask|EW_HIDE/)
+			count_vector(statement[at])
+		else if (!vector && statement[at] !~ / = [xy]\[i/)
+			count_scalar(statement[at])
+	}
 }
 
-function check_ring(kernel, ring, target) {
-	count(body)
-	expect(kernel, "the comment", comment, mul + fma " and " add)
-	expect(kernel, "the manifest", json_cost(rings[ring], target),
+# One loop, which takes `items` at a time.
+function check_loop(kernel, ring, target) {
+	vector = target !~ /portable|fma/
+	count(body, vector)
+	where = kernel ", loop " ++loops
+	if (stray || mul % items || fma % items || add % items || absolute % items)
+		fail(where, mul " mul " fma " fma " add " add " absolute " absolute " stray \
+			" stray in " items " items")
+	mul /= items; fma /= items; add /= items; absolute /= items
+	if (target == "fma")
+		absolutes[ring] = absolute
+	expect(where, "the comment", comment, mul + fma " and " add)
+	expect(where, "the manifest", json_cost(rings[ring], vector ? "fma" : target),
 		mul " mul " fma " fma " add " add")
-	expect(kernel, "the list", listed[kernel], mul + fma " and " add)
-	if (target == "fma" && ring in most_pipe &&
+	expect(where, "the list", listed[kernel], mul + fma " and " add)
+	if (vector)
+		expect(where, "target fma", absolutes[ring] " absolute", absolute " absolute")
+	if (target != "portable" && ring in most_pipe &&
 	    (mul + fma > most_pipe[ring] || add > most_add[ring]))
-		fail(kernel, mul + fma " + " add " operations, promised " \
+		fail(where, mul + fma " + " add " operations, promised " \
 			most_pipe[ring] " + " most_add[ring])
+}
+
+# Each kernel must have been through its loops: one, or whole vectors and the rest.
+function close_kernel() {
+	if (kernel && loops < (kernel ~ /_(portable|fma)$/ ? 1 : 2))
+		fail(kernel, loops " loops found")
+	kernel = ""
 	kernels++
+	all_loops += loops
 }
 
 function check_edge(name, edge) {
-	count(body)
+	count(body, 0)
 	expect(name, "the comment", comment, mul " and " add)
 	expect(name, "the manifest", json_cost(edges[edge], "portable"),
 		mul " mul " fma " fma " add " add")
 	kernels++
+	all_loops++
 }
 
 function close_file() {
 	if (file && kernels == 0)
 		fail(file, "no kernel found")
 	if (file && !bad) {
-		print "ok counts of " file ", " kernels " kernels"
+		print "ok counts of " file ", " kernels " kernels, " all_loops " bodies"
 		passed++
 	}
 	seen += kernels
-	kernels = bad = 0
+	kernels = all_loops = bad = 0
 }
 
 /"ring": / {
 	match($0, /"ring": "[^"]*/)
 	rings[substr($0, RSTART + 9, RLENGTH - 9)] = $0
-	expected += 4
+	expected += 10
 }
 /"function": / {
 	match($0, /ew_line_[^"]*/)
@@ -103,13 +149,23 @@ FNR == 1 {
 	close_file()
 	file = FILENAME ~ /\.c$/ ? FILENAME : ""
 	sub(/.*\//, "", file)
-	is_float = FILENAME ~ /(linef|f_portable|f_fma)[0-9_]*\.c$/
+	is_float = file ~ /(linef|f_(portable|fma|avx2|avx512|neon))[0-9_]*\.c$/
 }
 /^ \* Cost( per item)?: / {
 	split($0, part, /(: | mul| or fma|, | add)+/)
 	comment = part[2] " and " part[3]
 }
-/void ew_ring_.*\(/ { match($0, /ew_ring_[a-z0-9_]+/); kernel = substr($0, RSTART, RLENGTH) }
+/void ew_ring_[a-z0-9_]*\($/ {
+	match($0, /ew_ring_[a-z0-9_]+/)
+	kernel = substr($0, RSTART, RLENGTH)
+	ring = target = kernel
+	sub(/.*_/, "", target)
+	gsub(/^ew_ring_|_[a-z0-9]*$/, "", ring)
+	if (is_float)
+		sub(/f$/, "", ring)
+	loops = 0
+}
+/ew_ring_lost\(double/ { kernel = "ew_ring_lost"; body = ""; inside = 3; next }
 /^(double|float) ew_line_/ {
 	match($0, /ew_line_[a-z0-9_]+/)
 	kernel = substr($0, RSTART, RLENGTH)
@@ -117,15 +173,22 @@ FNR == 1 {
 	body = ""
 	next
 }
-/^\t\tfor \(size_t i = / { inside = 1; first = 1; body = ""; next }
-/^\t\t\tif \(count - i > / { first = 0 }               # the next item of the lane: the same again
-inside == 1 && /^\t\t}/ {
-	ring = target = kernel
-	sub(/.*_/, "", target)
-	gsub(/^ew_ring_|_[a-z]*$/, "", ring)
-	if (is_float)
-		sub(/f$/, "", ring)
-	check_ring(kernel, ring, target)
+/^\tfor \(size_t pass = 0; / {
+	width = $0
+	gsub(/.* pass \+= |\).*/, "", width)
+}
+/^\t\t+for \(.*; i \+= .*\) [{]$/ {
+	items = $0
+	gsub(/.* i \+= |\) [{]$/, "", items)
+	items = items == "step" ? 1 : items == "2 * step" ? 2 : items / width
+	end = $0
+	sub(/for.*/, "}", end)
+	inside = 1
+	body = ""
+	next
+}
+inside == 1 && $0 == end {
+	check_loop(kernel, ring, target)
 	inside = 0
 }
 inside == 2 && /^}/ {
@@ -134,30 +197,59 @@ inside == 2 && /^}/ {
 		sub(/f$/, "", edge)
 	check_edge(kernel, edge)
 	inside = 0
+	kernel = ""
 }
-inside && (first || inside == 2) && !/ = [xy]\[i/ { body = body $0 }
+inside == 3 && /^}/ {
+	count(body, 0)
+	lost_mul = mul
+	lost_add = add
+	inside = 0
+	kernel = ""
+}
+/^}/ && file && kernel ~ /^ew_ring/ { close_kernel() }
+inside { body = body $0 }
 
 END {
 	close_file()
 	if (seen != expected || seen == 0)
 		fail("all kernels", seen " found, the manifest has " expected \
-			" in two precisions and two targets")
+			" in two precisions and five targets")
 	print passed + 0 " passed, " failed + 0 " failed"
 	exit failed > 0
 }
 END
 
+# The scalar targets come first: what vectors do is compared with them.
 counts() {
-	awk -f "$work/counts.awk" "$1/edgewise_manifest.json" "$1/edgewise_kernels.h" \
-		"$1"/edgewise_line*.c "$1"/edgewise_*_portable*.c "$1"/edgewise_*_fma*.c
+	folder=$1
+	set -- "$folder"/edgewise_line*.c
+	for target in portable fma avx2 avx512 neon; do
+		for group in moments trust integrands; do
+			set -- "$@" "$folder/edgewise_$group"*"_$target"*.c
+		done
+	done
+	awk -f "$work/counts.awk" "$folder/edgewise_manifest.json" \
+		"$folder/edgewise_kernels.h" "$@"
 }
 
-# One operation more in one kernel must be noticed.
-cp -r "$build/emitted" "$work/broken" && sed '1,/acc0 = fma(s/s/acc0 = fma(s/acc0 = acc0 + fma(s/' \
-	"$build/emitted/edgewise_integrands_fma.c" >"$work/broken/edgewise_integrands_fma.c"
-if counts "$work/broken" >"$work/log" || ! grep -q '^not ok ew_ring_x1y0_fma: ' "$work/log"; then
-	echo "not ok self-test: an operation more in ew_ring_x1y0_fma was not noticed"
-	echo "0 passed, 1 failed"
-	exit 1
-fi
+# notices KERNEL FILE SED: one operation more or less in one loop must be noticed.
+notices() {
+	sed "$3" "$build/emitted/$2" >"$work/broken/$2"
+	if counts "$work/broken" >"$work/log" || ! grep -q "^not ok $1, loop" "$work/log"; then
+		echo "not ok self-test: a wrong operation in $1 was not noticed"
+		echo "0 passed, 1 failed"
+		exit 1
+	fi
+	cp "$build/emitted/$2" "$work/broken/$2"
+}
+
+cp -r "$build/emitted" "$work/broken"
+notices ew_ring_x1y0_fma edgewise_integrands_fma.c \
+	'1,/acc0 = fma(s/s/acc0 = fma(s/acc0 = acc0 + fma(s/'
+notices ew_ring_moments_1_avx512 edgewise_moments_avx512.c \
+	'/moments_1_avx512(/,/mul_pd/s/_mm512_mul_pd(x0, y1)/_mm512_add_pd(x0, y1)/'
+notices ew_ring_moments_6_neon edgewise_moments_neon.c \
+	'/moments_6_neon(/,/_2 = vaddq/s/s_2 = vsubq_f64(t0_2, t1_2)/s_2 = t0_2/'
+notices ew_ring_magnitudes_0f_avx2 edgewise_trustf_avx2.c \
+	'1,/_max_ps/s/_mm256_max_ps/_mm256_min_ps/'
 counts "$build/emitted"

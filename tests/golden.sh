@@ -7,11 +7,8 @@
 # that a reviewer can read in full.
 set -u
 build=${1:-build}
-golden=$(dirname "$0")/golden
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 1' HUP INT TERM
-passed=0 failed=0
+. "$(dirname "$0")/verdict.sh"
+golden=$tests/golden
 
 # check NAME: $work/NAME against the accepted text
 check() {
@@ -19,12 +16,10 @@ check() {
 		cp "$work/$1" "$golden/$1"
 	fi
 	if diff -u "$golden/$1" "$work/$1" >"$work/diff" 2>&1; then
-		passed=$((passed + 1))
-		echo "ok $1"
+		verdict "$1"
 	else
-		failed=$((failed + 1))
-		echo "not ok $1: if the change is meant, make accept;" \
-			"$(grep -m 1 '^[-+d][^-+]' "$work/diff")"
+		verdict "$1" "if the change is meant, make accept; $(
+			grep -m 1 '^[-+d][^-+]' "$work/diff")"
 	fi
 }
 
@@ -48,5 +43,4 @@ for file in edgewise_line.c edgewise_moments_fma.c; do
 	cp "$work/degree1/$file" "$work/degree1_$file"
 	check degree1_$file
 done
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+finish

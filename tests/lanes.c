@@ -15,7 +15,7 @@
  */
 #include "rings.h"
 
-enum { LANES = 8, LANES_FLOAT = 16, FLUSH = 64, SHORT = 24 };
+enum { LANES = 8, LANES_FLOAT = 16, FLUSH = 64 };
 
 typedef struct {
 	int lanes, items;               /* items so far */

@@ -10,21 +10,8 @@
 set -u
 build=${1:-build}
 order=${2:?the objects in the order of the pipeline}
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 1' HUP INT TERM
-passed=0 failed=0 missing=
-
-# NAME [PROBLEM]
-verdict() {
-	if [ -z "${2:-}" ]; then
-		passed=$((passed + 1))
-		echo "ok $1"
-	else
-		failed=$((failed + 1))
-		echo "not ok $1: $2"
-	fi
-}
+. "$(dirname "$0")/verdict.sh"
+missing=
 
 # upward ORDER: one line per reference to a later object
 upward() {
@@ -61,5 +48,4 @@ verdict "reversed order is reported" "$([ -n "$(upward "$backwards")" ] || echo 
 verdict "$first at the end is reported" \
 	"$(upward "$rest $first" | grep -q "refers upwards to [a-z_]* of $first\$" ||
 		echo "it was not")"
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+finish

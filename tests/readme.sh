@@ -5,20 +5,18 @@
 #     sh tests/readme.sh BUILD
 
 build=${1:-build}
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
-awk '/^```c/ { inside = 1; next } /^```/ { inside = 0 } inside' README.md >"$dir/use.c"
+. "$(dirname "$0")/verdict.sh"
+awk '/^```c/ { inside = 1; next } /^```/ { inside = 0 } inside' "$root/README.md" >"$work/use.c"
 awk '
 	/^```$/ { after = 1; next }
 	after && /^    / { print substr($0, 5); next }
-	after && NF { exit }' README.md >"$dir/want"
-if ${CC:-cc} -I"$build/emitted" -o "$dir/use" "$dir/use.c" "$build"/emitted/*.c -lm 2>"$dir/log" \
-	&& "$dir/use" >"$dir/have" && [ -s "$dir/want" ] \
-	&& diff "$dir/want" "$dir/have" >>"$dir/log"; then
-	echo "ok the program in README.md"
-	echo "1 passed, 0 failed"
+	after && NF { exit }' "$root/README.md" >"$work/want"
+if ${CC:-cc} -I"$build/emitted" -o "$work/use" "$work/use.c" "$build"/emitted/*.c -lm 2>"$work/log" &&
+	"$work/use" >"$work/have" && [ -s "$work/want" ] &&
+	diff "$work/want" "$work/have" >>"$work/log"
+then
+	verdict "the program in README.md"
 else
-	echo "not ok the program in README.md: $(tr '\n' ' ' <"$dir/log")"
-	echo "0 passed, 1 failed"
-	exit 1
+	verdict "the program in README.md" "it fails: $(tr '\n' ' ' <"$work/log")"
 fi
+finish

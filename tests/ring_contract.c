@@ -7,54 +7,11 @@
  * A degree out of range is refused and writes nothing. A target is forced, and the forced one is
  * really used: portable and fma differ in some bits, and a refused choice leaves them as they were.
  */
-#define _DEFAULT_SOURCE
+#include "guarded.h"
 
 #include <limits.h>
-#include <sys/mman.h>
 
 #include "rings.h"
-
-/* Memory between two inaccessible pages. */
-
-typedef struct {
-	char *start;
-	size_t bytes, page;
-} Guarded;
-
-static Guarded guarded_new(size_t least)
-{
-	Guarded g;
-	g.page = (size_t)sysconf(_SC_PAGESIZE);
-	g.bytes = (least + g.page - 1) / g.page * g.page;
-	char *all = mmap(NULL, g.bytes + 2 * g.page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-	if (all == MAP_FAILED)
-		abort();
-	g.start = all + g.page;
-	if (mprotect(g.start, g.bytes, PROT_READ | PROT_WRITE))
-		abort();
-	return g;
-}
-
-static void guarded_free(Guarded *g)
-{
-	munmap(g->start - g->page, g->bytes + 2 * g->page);
-}
-
-/* Where count bytes touch the front or the back page. */
-static void *guarded_place(const Guarded *g, size_t count, bool back)
-{
-	return g->start + (back ? g->bytes - count : 0);
-}
-
-/* A copy of data at the front or the back, which nobody may write. */
-static void *guarded_copy(Guarded *g, const void *data, size_t count, bool back)
-{
-	void *place = guarded_place(g, count, back);
-	mprotect(g->start, g->bytes, PROT_READ | PROT_WRITE);
-	memcpy(place, data, count);
-	mprotect(g->start, g->bytes, PROT_READ);
-	return place;
-}
 
 /* All functions into one buffer of consecutive outputs; returns the number of elements. */
 

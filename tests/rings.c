@@ -4,15 +4,16 @@
  * A set of cases (kinds of rings, each with n = 0..40) is drawn once per precision and its exact
  * moments are computed once; every function is then held against them with the bound of its row,
  *
- *     gamma_K sum W,   K = k + r (steps per lane - 1) + reduction   (ring_k in rings.h).
+ *     gamma_K sum W,   K = k + r (items per lane and turn - 1) + reduction   (ring_k in rings.h).
  *
  * Besides the bounds: moments about (0,0) and of interleaved coordinates have the bits of the plain
  * ones, moments about a centre the bits of the ring that was moved beforehand; repeated and closing
  * vertices change nothing; rings of no area and sizes of 1e30 and 1e-30 come out as they must.
+ * Magnitudes, which no function returns, are held against sum W itself by calling their kernels.
  */
 #include "rings.h"
 
-enum { LARGEST = 40, SHORT = 24 };   /* rings of fewer vertices have one lane */
+enum { LARGEST = 40, DEGREES = EW_MAX_DEGREE + 1 };
 
 typedef struct {
 	const char *kind;
@@ -163,7 +164,7 @@ static void free_cases(void)
 static bool moment_within(const Api *api, const Row *row, const Ring *ring, const Ref *moments,
 	const Ref *area, int m, int n, double got, const char *what)
 {
-	const long k = ring_k(api, row, ring->n);
+	const long k = ring_k(api, row, ring_count(ring));
 	const bool is_area = row->outputs == 1 && m + n == 0;
 	return expect_within(got, is_area ? area : &moments[ref_index(m, n)], k, api->bits,
 		ref_tiny(k, m + n, api->bits, ring->x, ring->y, ring->n),
@@ -348,8 +349,13 @@ static void test_holes(const Api *api, const char *target)
 /* Everything but the central moments as one list of numbers, in three groups: the vertex form, what
  * is summed over edges for all moments at once, and single monomials. */
 
-enum { FROM_VERTICES, FROM_EDGES = 3, FROM_MONOMIALS = FROM_EDGES + 2 + 164 + 2 * MOMENTS,
-	RESULTS = FROM_MONOMIALS + MOMENTS - 1 };
+enum {
+	FROM_VERTICES,
+	FROM_EDGES = 3,
+	OF_DEGREES = (EW_MAX_DEGREE + 1) * (EW_MAX_DEGREE + 2) * (EW_MAX_DEGREE + 3) / 6 - 1,
+	FROM_MONOMIALS = FROM_EDGES + 2 + OF_DEGREES + 2 * MOMENTS,
+	RESULTS = FROM_MONOMIALS + MOMENTS - 1
+};
 
 static int add_moments(const Api *api, const double *typed, int count, double *out, int at)
 {
@@ -573,11 +579,11 @@ static void test_extremes(const Api *api, const char *target)
 	double out[MOMENTS];
 	Ref *moments = ref_new(MOMENTS), *area = ref_new(1);
 	check_begin("largest and smallest, %s, %s", api->name, target);
-	for (int i = 0; i < 2 * 9 * LARGEST; i++) {
-		const int d = i / 2 % 9;
+	for (int i = 0; i < 2 * DEGREES * LARGEST; i++) {
+		const int d = i / 2 % DEGREES;
 		const double scale =
 			i % 2 ? large_scale(d, api->bits, LARGEST) : small_scale(d, api->bits);
-		Ring ring = ring_new((size_t)i / 18 + 1);
+		Ring ring = ring_new((size_t)(i / (2 * DEGREES)) + 1);
 		for (size_t j = 0; j < ring.n; j++) {
 			ring.x[j] = random_sized(scale);
 			ring.y[j] = random_sized(scale);
@@ -598,12 +604,205 @@ static void test_extremes(const Api *api, const char *target)
 	ref_free(area, 1);
 }
 
+/* Trust: bounds, the magnitudes that they are made of, and the area in twice the precision. */
+
+#define RUN(id, kernel, f, a) [id] = kernel,
+#define TABLES(TARGET, target, doubles) \
+	static ew_ring_run *const run_##target[ROWS] = { EW_RINGS_##TARGET##_DOUBLE(RUN) }; \
+	static ew_ring_runf *const runf_##target[ROWS] = { EW_RINGS_##TARGET##_FLOAT(RUN) };
+EW_TARGETS(TABLES)
+
+typedef struct {
+	const char *target;
+	ew_ring_run *const *run;
+	ew_ring_runf *const *runf;
+} Kernels;
+
+#define KERNELS(TARGET, target, doubles) { #target, run_##target, runf_##target },
+
+static const Kernels *kernels_of(const char *target)
+{
+	static const Kernels all[] = { EW_TARGETS(KERNELS) };
+	for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+		if (strcmp(all[i].target, target) == 0)
+			return &all[i];
+	}
+	abort();
+}
+
+/* What a kernel adds up over a ring of at most 1024 items and at least three vertices, by the
+ * definition of lanes; results in double. `closed` ends with its first vertex. */
+static void run_kernel(const Api *api, const Kernels *kernels, const Row *row, const Ring *closed,
+	double out[MOMENTS])
+{
+	const long id = row - ring_rows;
+	const bool is_float = api->bits == 24;
+	const size_t n = closed->n - 1, lanes = ring_lanes(api, n), stride = is_float ? 16 : 8;
+	const size_t items = n + 2 - ring_shapes[id].window;
+	double origin[16], sum[EW_MAX_ACCUMULATORS * 16] = { 0 }, total[EW_MAX_ACCUMULATORS];
+	float originf[16], sumf[EW_MAX_ACCUMULATORS * 16] = { 0 };
+	for (int l = 0; l < 16; l++)
+		originf[l] = (float)(origin[l] = closed->x[0]);
+	if (is_float)
+		kernels->runf[id](closed->px, closed->py, originf, 1, lanes, items, sumf);
+	else
+		kernels->run[id](closed->px, closed->py, origin, 1, lanes, items, sum);
+	for (size_t i = 0; i < (size_t)row->accumulators; i++) {
+		double *lane = sum + i * stride;
+		for (size_t l = 0; l < lanes && is_float; l++)
+			lane[l] = (double)sumf[i * stride + l];
+		for (size_t half = lanes / 2; half > 0; half /= 2) {
+			for (size_t l = 0; l < half; l++)
+				lane[l] += lane[l + half];
+		}
+		total[i] = lane[0];
+	}
+	ring_shapes[id].finish(total, out, 1);
+}
+
+/* W instead of the value. */
+static Ref magnitude(const Ref *ref)
+{
+	return (Ref){ { *ref->weight }, { *ref->weight } };
+}
+
+static void expect_magnitudes(const Api *api, const Kernels *kernels, const Case *c,
+	const Ring *closed, int degree)
+{
+	double out[MOMENTS], moments[MOMENTS], want[MOMENTS];
+	const Row *row = find_row("magnitudes", degree, 0);
+	const Ring *ring = &c->ring;
+	const long k = ring_k(api, row, ring->n);
+	run_kernel(api, kernels, row, closed, out);
+	for (int i = 0; i < ref_count(degree); i++) {
+		const Ref sum = magnitude(degree ? &c->moments[i] : c->area);
+		expect_within(out[i], &sum, k, api->bits,
+			ref_tiny(k, degree, api->bits, ring->x, ring->y, ring->n),
+			"%s, n = %zu: magnitude %d of degree %d", c->kind, ring->n, i, degree);
+	}
+	run_kernel(api, kernels, find_row("moments", degree, 0), closed, moments);
+	api->moments(degree, ring->px, ring->py, ring->n, want);
+	for (int i = 0; i < ref_count(degree); i++)
+		expect(same_bits(round_to(api->bits, moments[i]), get(api, want, i)),
+			"n = %zu, degree %d: the kernel called directly gives %a, ew_moments %a",
+			ring->n, degree, moments[i], get(api, want, i));
+}
+
+static void test_magnitudes(const Api *api, const char *target)
+{
+	int once[LARGEST];
+	for (int i = 0; i < LARGEST; i++)
+		once[i] = 1;
+	check_begin("magnitudes, %s, %s", api->name, target);
+	for (int i = 0; i < CASES; i++) {
+		const Case *c = &cases_of(api)[i];
+		if (c->ring.n < 3 || ring_count(&c->ring) < c->ring.n)
+			continue;
+		Ring closed = with_copies(api, &c->ring, once, true);
+		for (int d = 0; d <= EW_MAX_DEGREE; d++)
+			expect_magnitudes(api, kernels_of(target), c, &closed, d);
+		ring_free(&closed);
+	}
+	check_end();
+}
+
+/* |got - want| <= bound, exactly. */
+static bool is_bounded(double got, const mpq_t want, const mpq_t bound)
+{
+	mpq_t off;
+	mpq_init(off);
+	mpq_set_d(off, got);
+	mpq_sub(off, off, want);
+	mpq_abs(off, off);
+	const bool ok = mpq_cmp(off, bound) <= 0;
+	mpq_clear(off);
+	return ok;
+}
+
+/* The bound holds, the moments are those of ew_moments, and on rings of ordinary size the bound is
+ * at most twice what the number of roundings makes of W. */
+static void expect_bounds(const Api *api, const Case *c, int degree)
+{
+	double out[MOMENTS], bound[MOMENTS], want[MOMENTS];
+	const Ring *ring = &c->ring;
+	const long k = ring_k(api, find_row("moments", degree, 0), ring_count(ring));
+	const double gamma = gamma_of(k, api->bits);
+	const bool ordinary = strcmp(c->kind, "star") == 0 && ring->n >= 3;
+	mpq_t most;
+	mpq_init(most);
+	api->moments(degree, ring->px, ring->py, ring->n, want);
+	expect(api->bounded(degree, ring->px, ring->py, ring->n, out, bound) == EW_OK, "no EW_OK");
+	expect_same(api, want, out, ref_count(degree), "bounded", ring->n);
+	for (int i = 0; i < ref_count(degree); i++) {
+		const Ref *ref = degree ? &c->moments[i] : c->area;
+		const double got = get(api, out, i), allowed = get(api, bound, i);
+		mpq_set_d(most, allowed);
+		expect(is_bounded(got, ref->value, most),
+			"%s, n = %zu, degree %d: moment %d = %a, exact %a, bound %a", c->kind, ring->n,
+			degree, i, got, mpq_get_d(ref->value), allowed);
+		expect(!ordinary || allowed <= 2 * gamma * mpq_get_d(ref->weight),
+			"n = %zu, degree %d: bound %g of moment %d for roundings of %g", ring->n,
+			degree, allowed, i, gamma * mpq_get_d(ref->weight));
+	}
+	mpq_clear(most);
+}
+
+static void test_bounded(const Api *api, const char *target)
+{
+	check_begin("ew_moments_bounded, %s, %s", api->name, target);
+	for (int i = 0; i < CASES; i++) {
+		for (int d = 0; d <= EW_MAX_DEGREE; d++)
+			expect_bounds(api, &cases_of(api)[i], d);
+	}
+	check_end();
+}
+
+/* |got - A| <= u |A| + 2 gamma^2 sum W: at most 2 n + 20 roundings on any way into the sum (a product
+ * and its error, two products for each vertex, 16 lanes), and as many on any way of what they lost
+ * (Ogita, Rump, Oishi 2005, proposition 4.3); the last one to the precision. */
+static void test_compensated(const Api *api, const char *target)
+{
+	mpq_t bound, gamma;
+	mpq_inits(bound, gamma, NULL);
+	check_begin("ew_area_compensated, %s, %s", api->name, target);
+	for (int i = 0; i < CASES; i++) {
+		const Case *c = &cases_of(api)[i];
+		const Ring *ring = &c->ring;
+		const double got = api->compensated(ring->px, ring->py, ring->n);
+		ref_gamma(gamma, 2 * (long)ring->n + 20, api->bits);
+		mpq_mul(gamma, gamma, gamma);
+		mpq_mul(gamma, gamma, c->moments->weight);
+		mpq_mul_2exp(gamma, gamma, 1);
+		mpq_abs(bound, c->moments->value);
+		mpq_div_2exp(bound, bound, (mp_bitcnt_t)api->bits);
+		mpq_add(bound, bound, gamma);
+		if (ring->n < 3)
+			mpq_set_d(bound, 0);
+		expect(is_bounded(got, c->moments->value, bound),
+			"%s, n = %zu: %a, exact %a, allowed %g", c->kind, ring->n, got,
+			mpq_get_d(c->moments->value), mpq_get_d(bound));
+	}
+	check_end();
+	mpq_clears(bound, gamma, NULL);
+}
+
+static bool is_known(const char *family)
+{
+	static const char *const known[] = { "moments", "monomial", "magnitudes", "compensated" };
+	for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+		if (strcmp(family, known[i]) == 0)
+			return true;
+	}
+	return false;
+}
+
 /* The list: all families up to the degree, all monomials, and nothing these tests do not know. */
 static void test_list(void)
 {
 	check_begin("list of ring kernels");
 	for (int d = 0; d <= EW_MAX_DEGREE; d++) {
-		expect(find_row("moments", d, 0)->outputs == ref_count(d), "outputs of degree %d",
+		expect(find_row("moments", d, 0)->outputs == ref_count(d)
+			&& find_row("magnitudes", d, 0)->outputs == ref_count(d), "outputs of degree %d",
 			d);
 		for (int n = 0; n <= d; n++)
 			expect(find_row("monomial", d - n, n)->outputs == 1, "outputs of x%dy%d",
@@ -611,13 +810,13 @@ static void test_list(void)
 	}
 	for (int i = 0; i < ROWS; i++) {
 		const Row *row = &ring_rows[i];
-		const bool known =
-			strcmp(row->family, "moments") == 0 || strcmp(row->family, "monomial") == 0;
+		const bool known = is_known(row->family);
+		const bool bounded = strcmp(row->family, "compensated") != 0;
 		expect(known, "no test knows the family %s of %s", row->family, row->name);
 		expect(!known || find_row(row->family, row->m, row->n) == row, "%s is listed twice",
 			row->name);
-		expect(row->accumulators >= row->outputs && row->k > 0 && row->r > 0, "row of %s",
-			row->name);
+		expect(row->accumulators >= row->outputs && (row->k > 0) == bounded
+			&& (row->r > 0) == bounded, "row of %s", row->name);
 	}
 	check_end();
 }
@@ -636,6 +835,9 @@ int main(int argc, char **argv)
 	for_each_target(test_closed);
 	for_each_target(test_nothing);
 	for_each_target(test_extremes);
+	for_each_target(test_magnitudes);
+	for_each_target(test_bounded);
+	for_each_target(test_compensated);
 	free_cases();
 	return check_finish();
 }

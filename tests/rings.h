@@ -28,6 +28,8 @@ typedef struct {
 	double (*area)(const void *x, const void *y, size_t n);
 	int (*centroid)(const void *x, const void *y, size_t n, void *c);
 	int (*central)(int degree, const void *x, const void *y, size_t n, void *c, void *out);
+	int (*bounded)(int degree, const void *x, const void *y, size_t n, void *out, void *bound);
+	double (*compensated)(const void *x, const void *y, size_t n);
 } Api;
 
 #define RING_FUNCTIONS(REAL, f) \
@@ -64,6 +66,15 @@ static inline int api_central##f(int degree, const void *x, const void *y, size_
 	void *out) \
 { \
 	return ew_central_moments##f(degree, x, y, n, c, out); \
+} \
+static inline int api_bounded##f(int degree, const void *x, const void *y, size_t n, void *out, \
+	void *bound) \
+{ \
+	return ew_moments_bounded##f(degree, x, y, n, out, bound); \
+} \
+static inline double api_compensated##f(const void *x, const void *y, size_t n) \
+{ \
+	return (double)ew_area_compensated##f(x, y, n); \
 }
 
 RING_FUNCTIONS(double, )
@@ -71,7 +82,7 @@ RING_FUNCTIONS(float, f)
 
 #define RING_API(REAL, f, bits, denormal) { #REAL, sizeof(REAL), bits, denormal, api_moments##f, \
 	api_about##f, api_xy##f, api_translate##f, api_moment##f, api_area##f, api_centroid##f, \
-	api_central##f }
+	api_central##f, api_bounded##f, api_compensated##f }
 
 enum { APIS = 2 };
 
@@ -110,11 +121,20 @@ typedef struct {
 } Row;
 
 #define RING_ROW(id, family, m, n, accumulators, outputs, k, r) \
-	{ #id, #family, m, n, accumulators, outputs, k, r },
+	[id] = { #id, #family, m, n, accumulators, outputs, k, r },
 
 static const Row ring_rows[] = { EW_RINGS(RING_ROW) };
 
 enum { ROWS = sizeof ring_rows / sizeof *ring_rows };
+
+typedef struct {
+	size_t window, turns;   /* vertices of an item, sets of accumulators */
+	ew_ring_finish *finish;
+} Shape;
+
+#define RING_SHAPE(id, window, turns, accumulators, outputs, finish) [id] = { window, turns, finish },
+
+static const Shape ring_shapes[ROWS] = { EW_RINGS_SHAPES(RING_SHAPE) };
 
 static inline const Row *find_row(const char *family, int m, int n)
 {
@@ -127,14 +147,28 @@ static inline const Row *find_row(const char *family, int m, int n)
 	exit(1);
 }
 
-/* Roundings on the way of one term of a ring of n vertices: the edge, its lane, and the tree. */
+enum { SHORT = 24 };            /* rings of fewer vertices run in one lane */
+
+static inline size_t ring_lanes(const Api *api, size_t n)
+{
+	return n < SHORT ? 1 : api->bits == 24 ? 16 : 8;
+}
+
+/* Roundings on the way of one term of a ring of n vertices: k of its item and of the results, r for
+ * each further item of its lane and turn, and the halving of the lanes. Float sums go to double
+ * after 1024 items, and are rounded to float in the end. A closing vertex that makes a ring of 24
+ * out of a short one is not counted. */
 static inline long ring_k(const Api *api, const Row *row, size_t n)
 {
-	const long lanes = api->bits == 24 ? 16 : 8;
-	long steps = n ? ((long)n + lanes - 1) / lanes - 1 : 0;
-	if (api->bits == 24 && steps > 63)
-		steps = 63;
-	return row->k + row->r * steps + (api->bits == 24 ? 5 : 3);
+	const Shape *shape = &ring_shapes[row - ring_rows];
+	const size_t lanes = ring_lanes(api, n), at_once = lanes * shape->turns;
+	size_t items = n + 2 > shape->window ? n + 2 - shape->window : 0;
+	if (api->bits == 24 && items > 1024)
+		items = 1024;
+	long k = row->k + (api->bits == 24);
+	for (size_t half = lanes / 2; half > 0; half /= 2)
+		k++;
+	return items ? k + row->r * (long)((items - 1) / at_once) : k;
 }
 
 /* Rings. */
@@ -172,6 +206,13 @@ static inline void ring_free(Ring *ring)
 	free(ring->px);
 	free(ring->py);
 	free(ring->pxy);
+}
+
+/* Its vertices, without a closing one that decides whether it is short. */
+static inline size_t ring_count(const Ring *ring)
+{
+	const size_t n = ring->n;
+	return n - (n == SHORT && ring->x[0] == ring->x[n - 1] && ring->y[0] == ring->y[n - 1]);
 }
 
 /* Rounds x and y to the precision and fills the library's arrays. */

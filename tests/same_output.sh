@@ -10,29 +10,13 @@
 # /usr/bin/time can tell it, else by a limit on the address space.
 set -u
 build=${1:-build}
-root=$(cd "$(dirname "$0")/.." && pwd)
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 1' HUP INT TERM
-unset MAKEFLAGS MFLAGS MAKELEVEL SAN
-passed=0 failed=0
+. "$(dirname "$0")/verdict.sh"
 KB_ALLOWED=65536                                     # --max-degree 8: below 64 MB
-
-# NAME [PROBLEM]
-verdict() {
-	if [ -z "${2:-}" ]; then
-		passed=$((passed + 1))
-		echo "ok $1"
-	else
-		failed=$((failed + 1))
-		echo "not ok $1: $2"
-	fi
-}
 
 # build VARIANT...: COMPILER-LEVEL or COMPILER-sanitizers, each in a tree of its own
 build() {
 	for variant; do
-		command -v "${variant%-*}" >/dev/null || continue
+		has "${variant%-*}" || continue
 		case $variant in
 		*-sanitizers) set -- 'CFLAGS=-O1 -g' SAN=1 ;;
 		*) set -- "CFLAGS=-${variant#*-}" ;;
@@ -51,8 +35,8 @@ emit() {
 
 # compare VARIANT
 compare() {
-	if ! command -v "${1%-*}" >/dev/null; then
-		echo "skip $1: ${1%-*} is not installed"
+	if ! has "${1%-*}"; then
+		skip "$1" "${1%-*} is not installed"
 	elif [ ! -x "$work/$1/gen" ]; then
 		verdict "$1" "does not compile: $(grep -m 1 error "$work/$1.log")"
 	elif ! emit "$work/$1/gen" "$work/out" >"$work/log" 2>&1; then
@@ -107,5 +91,4 @@ verdict "generated/ is what gen writes" "$(check_generated | tr '\n' ' ')"
 degree 8 $KB_ALLOWED
 degree 20 0
 degree 32 0
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+finish
