@@ -195,6 +195,23 @@ static void add_precision(Text *text, const Request *request, const Kernels *ker
 	}
 }
 
+/* How the batch kernels of low degrees call their items: EW_SUMS_n accumulators, and EW_NEXT_n for
+ * column k of a block, with vertex (vx, vy) behind (px, py) and qy before that. */
+static void add_items(Text *text, const Kernels *kernels)
+{
+	text_add(text, "\n/* Items of batch kernels, see edgewise_sides_template.h */\n");
+	for (int i = 0; i < kernels->rings; ++i) {
+		const Ring *ring = &kernels->ring[i];
+		if (!emit_has_item(ring))
+			continue;
+		text_add(text, "#define EW_SUMS_%d %d\n", ring->m, ring->accumulators);
+		text_add(text, "#define EW_NEXT_%d(item, k) item(%s, cx, %s)\n", ring->m,
+			ring->window == 3 ? "qy, px, vy" : "px, py, vx, vy",
+			ring->turns == 1 ? "acc" : format("acc + (k) %% %d * %d",
+				ring->turns, ring->accumulators / ring->turns));
+	}
+}
+
 /* The targets that the compiler builds, and what finishes the moments of rings side by side. */
 static void add_targets(Text *text, const Request *request, const Kernels *kernels)
 {
@@ -311,6 +328,7 @@ void emit_list(Files *files, const Request *request, const Kernels *kernels)
 		if (request->precisions & precisions[p].bit)
 			add_precision(text, request, kernels, &precisions[p]);
 	add_bounds(text, request, kernels);
+	add_items(text, kernels);
 	add_targets(text, request, kernels);
 	add_types(text, request);
 	text_add(text, "\n#endif\n");

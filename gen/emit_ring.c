@@ -163,6 +163,11 @@ static void emit_target(Files *files, const Request *request, const Kernels *ker
 	close_file(text, target);
 }
 
+int emit_has_item(const Ring *ring)
+{
+	return is_family(ring, "moments") && ring->m <= ITEM_DEGREE;
+}
+
 int emit_finishes_columns(const Ring *ring)
 {
 	return is_family(ring, "moments");
@@ -197,8 +202,7 @@ static void emit_items(Files *files, const Request *request, const Kernels *kern
 	for (int p = 0; p < precision_count; ++p)
 		for (int i = 0; i < kernels->rings; ++i) {
 			const Ring *ring = &kernels->ring[i];
-			if (!is_family(ring, "moments") || ring->m > ITEM_DEGREE
-			    || !(request->precisions & precisions[p].bit))
+			if (!emit_has_item(ring) || !(request->precisions & precisions[p].bit))
 				continue;
 			text_add(text, "\n/* %s */\n", describe(ring));
 			emit_vector_item(text, ring, target, &precisions[p]);

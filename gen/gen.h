@@ -378,6 +378,7 @@ void emit_vector_body(Text *text, const Ring *ring, const Target *target,
 	const Precision *precision);
 void emit_vector_finish(Text *text, const Ring *ring, const Target *target);
 int  emit_finishes_columns(const Ring *ring);  /* is there a batch function of this ring? */
+int  emit_has_item(const Ring *ring);          /* does that never leave the registers? */
 /* One item of vectors that are in registers already, as an inline function. */
 void emit_vector_item(Text *text, const Ring *ring, const Target *target,
 	const Precision *precision);

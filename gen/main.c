@@ -166,6 +166,8 @@ static int read_request(Options *o, const char *option, const char *value)
 		request->targets = spec_list(option, value, target_names, TARGETS);
 		break;
 	case 6:
+		if (strchr(value, ','))
+			fatal(EXIT_USAGE, "--scheme takes one word, not '%s'", value);
 		spec_list(option, value, scheme_names(), schemes());
 		request->scheme = value;
 		break;

@@ -38,11 +38,13 @@ static Dag *vertex_form(Rat value, int magnitude)
 	dag->turns = 2;
 	Ref width = difference_of(dag, VAR_CX, VAR_X1, "width");
 	Ref height = difference_of(dag, VAR_Y0, VAR_Y2, "height");
-	Ref product = magnitude ? dag_mul(dag, dag_abs(dag, width), dag_abs(dag, height))
-		: dag_mul(dag, width, height);
+	if (magnitude) {
+		width = dag_abs(dag, width);
+		height = dag_abs(dag, height);
+	}
 	finish_room(dag, 0);
 	finish_next(dag, 0, 0, rat_mul(value, rat(1, 2)));
-	dag_accumulate(dag, product);
+	dag_accumulate(dag, dag_mul(dag, width, height));
 	return dag;
 }
 
@@ -268,7 +270,8 @@ static Dag *recurrence(Dag *dag, Leaves end, Ref start, int degree)
 Dag *moments_recurrence(int degree)
 {
 	Dag *dag = dag_new("recurrence");
-	return recurrence(dag, ends(dag), cross(dag), degree);
+	Leaves end = ends(dag);
+	return recurrence(dag, end, cross(dag), degree);
 }
 
 /* The recurrence has no negative coefficient: with |x|, |y| and |x0 y1| + |x1 y0| it adds up

@@ -85,7 +85,8 @@ static void measure(Program *program)
 			program->depth = depth[ref];
 		program->cost.fma += op_fma_cost(node->op);
 		program->cost.add += op_add_cost(node->op);
-		program->cost.mul += node->op == OP_MUL;
+		if (node->op != OP_FMA && node->op != OP_FMS)
+			program->cost.mul += op_fma_cost(node->op);
 	}
 }
 

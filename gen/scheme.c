@@ -231,14 +231,13 @@ static Dag *best_moments(const Integral *want, int degree, const char *preferred
 {
 	Dag *candidate[4];
 	int count = 0, best = 0;
-	if (degree == 0)
-		candidate[count++] = moments_vertex(rat(1, 1));
+	if (degree == 0)                       /* area is about the first vertex, by contract */
+		return moments_vertex(rat(1, 1));
 	if (degree == 2)
 		candidate[count++] = moments_shared();
 	if (degree <= 4)
 		candidate[count++] = moments_even_power(degree);
-	if (degree >= 1)
-		candidate[count++] = moments_recurrence(degree);
+	candidate[count++] = moments_recurrence(degree);
 	if (degree <= 4 || preferred)          /* far too dear beyond, unless asked for */
 		candidate[count++] = moments_matrix(want, degree);
 	for (int i = 1; i < count; ++i)

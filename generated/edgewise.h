@@ -9,6 +9,7 @@
 #define EDGEWISE_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 /* An integral over a region is a sum over its edges. Counterclockwise is positive, holes run
  * clockwise and subtract, a self-overlapping region is weighted by its winding number: add up
@@ -110,6 +111,43 @@ int ew_central_moments(int degree, const double *x, const double *y, size_t n, d
 	double *out);
 int ew_central_momentsf(int degree, const float *x, const float *y, size_t n, float c[2],
 	float *out);
+
+/* The moments of ew_moments and, for each, a bound of its error: |out - exact| <= bound,
+ * rigorously: gamma_K times the sum of all terms with positive sign, with the roundings and
+ * underflows of the bound itself included. Infinity if that says nothing (overflow, NaN). */
+int ew_moments_bounded(int degree, const double *x, const double *y, size_t n, double *out,
+	double *bound);
+int ew_moments_boundedf(int degree, const float *x, const float *y, size_t n, float *out,
+	float *bound);
+
+/* Area about (0,0) as if summed in twice the precision (Dot2: Ogita, Rump, Oishi 2005): faithful
+ * as long as sum |x_i y_(i+1)| + |x_(i+1) y_i| <= |2 area| 2^52 / (4 n^2) (float: 2^23 / (4
+ * n^2)) and products neither underflow nor overflow (portable: coordinates below 2^996, float
+ * 2^115). */
+double ew_area_compensated(const double *x, const double *y, size_t n);
+float ew_area_compensatedf(const float *x, const float *y, size_t n);
+
+/* Areas of many rings; ring i has the vertices offsets[i] .. offsets[i+1] - 1, as in GeoArrow
+ * (rings + 1 offsets). out[i] is what ew_area gives, bit for bit. Negative or decreasing
+ * offsets: EW_BAD_OFFSETS, out untouched. */
+int ew_area_rings(const double *x, const double *y, const int32_t *offsets, size_t rings,
+	double *out);
+int ew_area_ringsf(const float *x, const float *y, const int32_t *offsets, size_t rings,
+	float *out);
+
+/* Centroids of many rings, as ew_centroid gives them, bit for bit; NaN for a ring whose area is
+ * 0. Offsets as for ew_area_rings. */
+int ew_centroid_rings(const double *x, const double *y, const int32_t *offsets, size_t rings,
+	double *cx, double *cy);
+int ew_centroid_ringsf(const float *x, const float *y, const int32_t *offsets, size_t rings,
+	float *cx, float *cy);
+
+/* Moments of many rings, as ew_moments gives them, bit for bit: out[i * EW_MOMENTS(degree) +
+ * EW_INDEX(m, n)]. Offsets as for ew_area_rings; a bad degree leaves out untouched too. */
+int ew_moments_rings(int degree, const double *x, const double *y, const int32_t *offsets,
+	size_t rings, double *out);
+int ew_moments_ringsf(int degree, const float *x, const float *y, const int32_t *offsets,
+	size_t rings, float *out);
 
 /* Contribution of one line edge (x0,y0) -> (x1,y1) to the integral of x^m y^n or of a
  * polynomial: m! n!/(m+n+2)! (x0 y1 - x1 y0) sum_pq C(p+q,q) C(m+n-p-q,n-q) x0^(m-p) x1^p

@@ -10,570 +10,886 @@
 #include "edgewise_kernels.h"
 
 /* area */
-void ew_ring_moments_0_finish(const double *sum, double *out)
+void ew_ring_moments_0_finish(const double *sum, double *out, size_t stride)
 {
-	const double t0 = sum[0] + sum[1];
-	out[0] = 0.5 * t0;
+	const double t0 = sum[0 * stride] + sum[1 * stride];
+	out[0 * stride] = 0.5 * t0;
 }
+
+const short ew_ring_moments_0_k[1] = {
+	5
+};
 
 /* all moments of x^m y^n, m + n <= 1 */
-void ew_ring_moments_1_finish(const double *sum, double *out)
+void ew_ring_moments_1_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0.5 * sum[0];
-	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
-	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
 }
+
+const short ew_ring_moments_1_k[3] = {
+	3, 7, 7
+};
 
 /* all moments of x^m y^n, m + n <= 2 */
-void ew_ring_moments_2_finish(const double *sum, double *out)
+void ew_ring_moments_2_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0.5 * sum[0];
-	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
-	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
-	out[3] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3];
-	out[4] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4];
-	out[5] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5];
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
+	out[3 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3 * stride];
+	out[4 * stride] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4 * stride];
+	out[5 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5 * stride];
 }
+
+const short ew_ring_moments_2_k[6] = {
+	3, 7, 7, 9, 31, 9
+};
 
 /* all moments of x^m y^n, m + n <= 3 */
-void ew_ring_moments_3_finish(const double *sum, double *out)
+void ew_ring_moments_3_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0.5 * sum[0];
-	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
-	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
-	const double t0 = 3.0 * sum[3];
-	const double t1 = -2.0 * sum[4];
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
+	const double t0 = 3.0 * sum[3 * stride];
+	const double t1 = -2.0 * sum[4 * stride];
 	const double t2 = t0 + t1;
-	out[3] = 0x1.5555555555555p-6 /* 1/48 */ * t2;
-	const double t3 = 3.0 * sum[5];
-	const double t4 = -2.0 * sum[6];
+	out[3 * stride] = 0x1.5555555555555p-6 /* 1/48 */ * t2;
+	const double t3 = 3.0 * sum[5 * stride];
+	const double t4 = -2.0 * sum[6 * stride];
 	const double t5 = t3 + t4;
-	out[4] = 0x1.5555555555555p-6 /* 1/48 */ * t5;
-	const double t6 = 3.0 * sum[7];
-	const double t7 = -2.0 * sum[8];
+	out[4 * stride] = 0x1.5555555555555p-6 /* 1/48 */ * t5;
+	const double t6 = 3.0 * sum[7 * stride];
+	const double t7 = -2.0 * sum[8 * stride];
 	const double t8 = t6 + t7;
-	out[5] = 0x1.5555555555555p-6 /* 1/48 */ * t8;
-	out[6] = 0x1.999999999999ap-6 /* 1/40 */ * sum[9];
-	const double t9 = 2.0 * sum[11];
-	const double t10 = sum[10] + t9;
-	out[7] = 0x1.1111111111111p-7 /* 1/120 */ * t10;
-	const double t11 = 2.0 * sum[12];
-	const double t12 = sum[13] + t11;
-	out[8] = 0x1.1111111111111p-7 /* 1/120 */ * t12;
-	out[9] = 0x1.999999999999ap-6 /* 1/40 */ * sum[14];
+	out[5 * stride] = 0x1.5555555555555p-6 /* 1/48 */ * t8;
+	out[6 * stride] = 0x1.999999999999ap-6 /* 1/40 */ * sum[9 * stride];
+	const double t9 = 2.0 * sum[11 * stride];
+	const double t10 = sum[10 * stride] + t9;
+	out[7 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * t10;
+	const double t11 = 2.0 * sum[12 * stride];
+	const double t12 = sum[13 * stride] + t11;
+	out[8 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * t12;
+	out[9 * stride] = 0x1.999999999999ap-6 /* 1/40 */ * sum[14 * stride];
 }
+
+const short ew_ring_moments_3_k[10] = {
+	3, 7, 7, 46, 46, 46, 36, 39, 39, 36
+};
 
 /* all moments of x^m y^n, m + n <= 4 */
-void ew_ring_moments_4_finish(const double *sum, double *out)
+void ew_ring_moments_4_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0.5 * sum[0];
-	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
-	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
-	const double t0 = 3.0 * sum[3];
-	const double t1 = -2.0 * sum[4];
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
+	const double t0 = 3.0 * sum[3 * stride];
+	const double t1 = -2.0 * sum[4 * stride];
 	const double t2 = t0 + t1;
-	out[3] = 0x1.5555555555555p-6 /* 1/48 */ * t2;
-	const double t3 = 3.0 * sum[5];
-	const double t4 = -2.0 * sum[6];
+	out[3 * stride] = 0x1.5555555555555p-6 /* 1/48 */ * t2;
+	const double t3 = 3.0 * sum[5 * stride];
+	const double t4 = -2.0 * sum[6 * stride];
 	const double t5 = t3 + t4;
-	out[4] = 0x1.5555555555555p-6 /* 1/48 */ * t5;
-	const double t6 = 3.0 * sum[7];
-	const double t7 = -2.0 * sum[8];
+	out[4 * stride] = 0x1.5555555555555p-6 /* 1/48 */ * t5;
+	const double t6 = 3.0 * sum[7 * stride];
+	const double t7 = -2.0 * sum[8 * stride];
 	const double t8 = t6 + t7;
-	out[5] = 0x1.5555555555555p-6 /* 1/48 */ * t8;
-	out[6] = 0x1.999999999999ap-6 /* 1/40 */ * sum[9];
-	const double t9 = 2.0 * sum[11];
-	const double t10 = sum[10] + t9;
-	out[7] = 0x1.1111111111111p-7 /* 1/120 */ * t10;
-	const double t11 = 2.0 * sum[12];
-	const double t12 = sum[13] + t11;
-	out[8] = 0x1.1111111111111p-7 /* 1/120 */ * t12;
-	out[9] = 0x1.999999999999ap-6 /* 1/40 */ * sum[14];
-	const double t13 = 5.0 * sum[15];
-	const double t14 = -4.0 * sum[21];
+	out[5 * stride] = 0x1.5555555555555p-6 /* 1/48 */ * t8;
+	out[6 * stride] = 0x1.999999999999ap-6 /* 1/40 */ * sum[9 * stride];
+	const double t9 = 2.0 * sum[11 * stride];
+	const double t10 = sum[10 * stride] + t9;
+	out[7 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * t10;
+	const double t11 = 2.0 * sum[12 * stride];
+	const double t12 = sum[13 * stride] + t11;
+	out[8 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * t12;
+	out[9 * stride] = 0x1.999999999999ap-6 /* 1/40 */ * sum[14 * stride];
+	const double t13 = 5.0 * sum[15 * stride];
+	const double t14 = -4.0 * sum[21 * stride];
 	const double t15 = t13 + t14;
-	out[10] = 0x1.1111111111111p-9 /* 1/480 */ * t15;
-	const double t16 = 5.0 * sum[16];
-	const double t17 = -4.0 * sum[22];
+	out[10 * stride] = 0x1.1111111111111p-9 /* 1/480 */ * t15;
+	const double t16 = 5.0 * sum[16 * stride];
+	const double t17 = -4.0 * sum[22 * stride];
 	const double t18 = t16 + t17;
-	out[11] = 0x1.1111111111111p-9 /* 1/480 */ * t18;
-	const double t19 = 5.0 * sum[17];
-	const double t20 = 10.0 * sum[18];
+	out[11 * stride] = 0x1.1111111111111p-9 /* 1/480 */ * t18;
+	const double t19 = 5.0 * sum[17 * stride];
+	const double t20 = 10.0 * sum[18 * stride];
 	const double t21 = t19 + t20;
-	const double t22 = -12.0 * sum[23];
+	const double t22 = -12.0 * sum[23 * stride];
 	const double t23 = t21 + t22;
-	out[12] = 0x1.6c16c16c16c17p-11 /* 1/1440 */ * t23;
-	const double t24 = 5.0 * sum[19];
-	const double t25 = -4.0 * sum[24];
+	out[12 * stride] = 0x1.6c16c16c16c17p-11 /* 1/1440 */ * t23;
+	const double t24 = 5.0 * sum[19 * stride];
+	const double t25 = -4.0 * sum[24 * stride];
 	const double t26 = t24 + t25;
-	out[13] = 0x1.1111111111111p-9 /* 1/480 */ * t26;
-	const double t27 = 5.0 * sum[20];
-	const double t28 = -4.0 * sum[25];
+	out[13 * stride] = 0x1.1111111111111p-9 /* 1/480 */ * t26;
+	const double t27 = 5.0 * sum[20 * stride];
+	const double t28 = -4.0 * sum[25 * stride];
 	const double t29 = t27 + t28;
-	out[14] = 0x1.1111111111111p-9 /* 1/480 */ * t29;
+	out[14 * stride] = 0x1.1111111111111p-9 /* 1/480 */ * t29;
 }
+
+const short ew_ring_moments_4_k[15] = {
+	3, 7, 7, 46, 46, 46, 36, 39, 39, 36, 149, 149, 158, 149, 149
+};
 
 /* all moments of x^m y^n, m + n <= 5 */
-void ew_ring_moments_5_finish(const double *sum, double *out)
+void ew_ring_moments_5_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0.5 * sum[0];
-	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
-	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
-	out[3] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3];
-	out[4] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4];
-	out[5] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5];
-	out[6] = 0x1.999999999999ap-5 /* 1/20 */ * sum[6];
-	out[7] = 0x1.1111111111111p-6 /* 1/60 */ * sum[7];
-	out[8] = 0x1.1111111111111p-6 /* 1/60 */ * sum[8];
-	out[9] = 0x1.999999999999ap-5 /* 1/20 */ * sum[9];
-	out[10] = 0x1.1111111111111p-5 /* 1/30 */ * sum[10];
-	out[11] = 0x1.1111111111111p-7 /* 1/120 */ * sum[11];
-	out[12] = 0x1.6c16c16c16c17p-8 /* 1/180 */ * sum[12];
-	out[13] = 0x1.1111111111111p-7 /* 1/120 */ * sum[13];
-	out[14] = 0x1.1111111111111p-5 /* 1/30 */ * sum[14];
-	out[15] = 0x1.8618618618618p-6 /* 1/42 */ * sum[15];
-	const double t0 = 5.0 * sum[21];
-	const double t1 = sum[16] + t0;
-	out[16] = 0x1.3813813813814p-8 /* 1/210 */ * t1;
-	const double t2 = 10.0 * sum[22];
-	const double t3 = sum[17] + t2;
-	out[17] = 0x1.3813813813814p-9 /* 1/420 */ * t3;
-	const double t4 = 10.0 * sum[23];
-	const double t5 = sum[18] + t4;
-	out[18] = 0x1.3813813813814p-9 /* 1/420 */ * t5;
-	const double t6 = 5.0 * sum[24];
-	const double t7 = sum[19] + t6;
-	out[19] = 0x1.3813813813814p-8 /* 1/210 */ * t7;
-	out[20] = 0x1.8618618618618p-6 /* 1/42 */ * sum[20];
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
+	out[3 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3 * stride];
+	out[4 * stride] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4 * stride];
+	out[5 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5 * stride];
+	out[6 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[6 * stride];
+	out[7 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[7 * stride];
+	out[8 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[8 * stride];
+	out[9 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[9 * stride];
+	out[10 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[10 * stride];
+	out[11 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[11 * stride];
+	out[12 * stride] = 0x1.6c16c16c16c17p-8 /* 1/180 */ * sum[12 * stride];
+	out[13 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[13 * stride];
+	out[14 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[14 * stride];
+	out[15 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[15 * stride];
+	const double t0 = 5.0 * sum[21 * stride];
+	const double t1 = sum[16 * stride] + t0;
+	out[16 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * t1;
+	const double t2 = 10.0 * sum[22 * stride];
+	const double t3 = sum[17 * stride] + t2;
+	out[17 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * t3;
+	const double t4 = 10.0 * sum[23 * stride];
+	const double t5 = sum[18 * stride] + t4;
+	out[18 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * t5;
+	const double t6 = 5.0 * sum[24 * stride];
+	const double t7 = sum[19 * stride] + t6;
+	out[19 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * t7;
+	out[20 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[20 * stride];
 }
+
+const short ew_ring_moments_5_k[21] = {
+	3, 7, 7, 9, 10, 9, 11, 12, 13, 11, 13, 14, 15, 16, 13, 14,
+	16, 17, 18, 19, 14
+};
 
 /* all moments of x^m y^n, m + n <= 6 */
-void ew_ring_moments_6_finish(const double *sum, double *out)
+void ew_ring_moments_6_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0.5 * sum[0];
-	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
-	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
-	out[3] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3];
-	out[4] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4];
-	out[5] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5];
-	out[6] = 0x1.999999999999ap-5 /* 1/20 */ * sum[6];
-	out[7] = 0x1.1111111111111p-6 /* 1/60 */ * sum[7];
-	out[8] = 0x1.1111111111111p-6 /* 1/60 */ * sum[8];
-	out[9] = 0x1.999999999999ap-5 /* 1/20 */ * sum[9];
-	out[10] = 0x1.1111111111111p-5 /* 1/30 */ * sum[10];
-	out[11] = 0x1.1111111111111p-7 /* 1/120 */ * sum[11];
-	out[12] = 0x1.6c16c16c16c17p-8 /* 1/180 */ * sum[12];
-	out[13] = 0x1.1111111111111p-7 /* 1/120 */ * sum[13];
-	out[14] = 0x1.1111111111111p-5 /* 1/30 */ * sum[14];
-	out[15] = 0x1.8618618618618p-6 /* 1/42 */ * sum[15];
-	out[16] = 0x1.3813813813814p-8 /* 1/210 */ * sum[16];
-	out[17] = 0x1.3813813813814p-9 /* 1/420 */ * sum[17];
-	out[18] = 0x1.3813813813814p-9 /* 1/420 */ * sum[18];
-	out[19] = 0x1.3813813813814p-8 /* 1/210 */ * sum[19];
-	out[20] = 0x1.8618618618618p-6 /* 1/42 */ * sum[20];
-	out[21] = 0x1.2492492492492p-6 /* 1/56 */ * sum[21];
-	const double t0 = 6.0 * sum[28];
-	const double t1 = sum[22] + t0;
-	out[22] = 0x1.8618618618618p-9 /* 1/336 */ * t1;
-	const double t2 = 15.0 * sum[29];
-	const double t3 = sum[23] + t2;
-	out[23] = 0x1.3813813813814p-10 /* 1/840 */ * t3;
-	const double t4 = 20.0 * sum[30];
-	const double t5 = sum[24] + t4;
-	out[24] = 0x1.d41d41d41d41dp-11 /* 1/1120 */ * t5;
-	const double t6 = 15.0 * sum[31];
-	const double t7 = sum[25] + t6;
-	out[25] = 0x1.3813813813814p-10 /* 1/840 */ * t7;
-	const double t8 = 6.0 * sum[32];
-	const double t9 = sum[26] + t8;
-	out[26] = 0x1.8618618618618p-9 /* 1/336 */ * t9;
-	out[27] = 0x1.2492492492492p-6 /* 1/56 */ * sum[27];
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
+	out[3 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3 * stride];
+	out[4 * stride] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4 * stride];
+	out[5 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5 * stride];
+	out[6 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[6 * stride];
+	out[7 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[7 * stride];
+	out[8 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[8 * stride];
+	out[9 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[9 * stride];
+	out[10 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[10 * stride];
+	out[11 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[11 * stride];
+	out[12 * stride] = 0x1.6c16c16c16c17p-8 /* 1/180 */ * sum[12 * stride];
+	out[13 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[13 * stride];
+	out[14 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[14 * stride];
+	out[15 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[15 * stride];
+	out[16 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * sum[16 * stride];
+	out[17 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * sum[17 * stride];
+	out[18 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * sum[18 * stride];
+	out[19 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * sum[19 * stride];
+	out[20 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[20 * stride];
+	out[21 * stride] = 0x1.2492492492492p-6 /* 1/56 */ * sum[21 * stride];
+	const double t0 = 6.0 * sum[28 * stride];
+	const double t1 = sum[22 * stride] + t0;
+	out[22 * stride] = 0x1.8618618618618p-9 /* 1/336 */ * t1;
+	const double t2 = 15.0 * sum[29 * stride];
+	const double t3 = sum[23 * stride] + t2;
+	out[23 * stride] = 0x1.3813813813814p-10 /* 1/840 */ * t3;
+	const double t4 = 20.0 * sum[30 * stride];
+	const double t5 = sum[24 * stride] + t4;
+	out[24 * stride] = 0x1.d41d41d41d41dp-11 /* 1/1120 */ * t5;
+	const double t6 = 15.0 * sum[31 * stride];
+	const double t7 = sum[25 * stride] + t6;
+	out[25 * stride] = 0x1.3813813813814p-10 /* 1/840 */ * t7;
+	const double t8 = 6.0 * sum[32 * stride];
+	const double t9 = sum[26 * stride] + t8;
+	out[26 * stride] = 0x1.8618618618618p-9 /* 1/336 */ * t9;
+	out[27 * stride] = 0x1.2492492492492p-6 /* 1/56 */ * sum[27 * stride];
 }
+
+const short ew_ring_moments_6_k[28] = {
+	3, 7, 7, 9, 10, 9, 11, 12, 13, 11, 13, 14, 15, 16, 13, 15,
+	16, 17, 18, 19, 15, 16, 18, 19, 20, 21, 22, 16
+};
 
 /* all moments of x^m y^n, m + n <= 7 */
-void ew_ring_moments_7_finish(const double *sum, double *out)
+void ew_ring_moments_7_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0.5 * sum[0];
-	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
-	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
-	out[3] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3];
-	out[4] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4];
-	out[5] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5];
-	out[6] = 0x1.999999999999ap-5 /* 1/20 */ * sum[6];
-	out[7] = 0x1.1111111111111p-6 /* 1/60 */ * sum[7];
-	out[8] = 0x1.1111111111111p-6 /* 1/60 */ * sum[8];
-	out[9] = 0x1.999999999999ap-5 /* 1/20 */ * sum[9];
-	out[10] = 0x1.1111111111111p-5 /* 1/30 */ * sum[10];
-	out[11] = 0x1.1111111111111p-7 /* 1/120 */ * sum[11];
-	out[12] = 0x1.6c16c16c16c17p-8 /* 1/180 */ * sum[12];
-	out[13] = 0x1.1111111111111p-7 /* 1/120 */ * sum[13];
-	out[14] = 0x1.1111111111111p-5 /* 1/30 */ * sum[14];
-	out[15] = 0x1.8618618618618p-6 /* 1/42 */ * sum[15];
-	out[16] = 0x1.3813813813814p-8 /* 1/210 */ * sum[16];
-	out[17] = 0x1.3813813813814p-9 /* 1/420 */ * sum[17];
-	out[18] = 0x1.3813813813814p-9 /* 1/420 */ * sum[18];
-	out[19] = 0x1.3813813813814p-8 /* 1/210 */ * sum[19];
-	out[20] = 0x1.8618618618618p-6 /* 1/42 */ * sum[20];
-	out[21] = 0x1.2492492492492p-6 /* 1/56 */ * sum[21];
-	out[22] = 0x1.8618618618618p-9 /* 1/336 */ * sum[22];
-	out[23] = 0x1.3813813813814p-10 /* 1/840 */ * sum[23];
-	out[24] = 0x1.d41d41d41d41dp-11 /* 1/1120 */ * sum[24];
-	out[25] = 0x1.3813813813814p-10 /* 1/840 */ * sum[25];
-	out[26] = 0x1.8618618618618p-9 /* 1/336 */ * sum[26];
-	out[27] = 0x1.2492492492492p-6 /* 1/56 */ * sum[27];
-	out[28] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[28];
-	const double t0 = 7.0 * sum[36];
-	const double t1 = sum[29] + t0;
-	out[29] = 0x1.0410410410410p-9 /* 1/504 */ * t1;
-	const double t2 = 21.0 * sum[37];
-	const double t3 = sum[30] + t2;
-	out[30] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * t3;
-	const double t4 = 35.0 * sum[38];
-	const double t5 = sum[31] + t4;
-	out[31] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t5;
-	const double t6 = 35.0 * sum[39];
-	const double t7 = sum[32] + t6;
-	out[32] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t7;
-	const double t8 = 21.0 * sum[40];
-	const double t9 = sum[33] + t8;
-	out[33] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * t9;
-	const double t10 = 7.0 * sum[41];
-	const double t11 = sum[34] + t10;
-	out[34] = 0x1.0410410410410p-9 /* 1/504 */ * t11;
-	out[35] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[35];
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
+	out[3 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3 * stride];
+	out[4 * stride] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4 * stride];
+	out[5 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5 * stride];
+	out[6 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[6 * stride];
+	out[7 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[7 * stride];
+	out[8 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[8 * stride];
+	out[9 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[9 * stride];
+	out[10 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[10 * stride];
+	out[11 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[11 * stride];
+	out[12 * stride] = 0x1.6c16c16c16c17p-8 /* 1/180 */ * sum[12 * stride];
+	out[13 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[13 * stride];
+	out[14 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[14 * stride];
+	out[15 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[15 * stride];
+	out[16 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * sum[16 * stride];
+	out[17 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * sum[17 * stride];
+	out[18 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * sum[18 * stride];
+	out[19 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * sum[19 * stride];
+	out[20 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[20 * stride];
+	out[21 * stride] = 0x1.2492492492492p-6 /* 1/56 */ * sum[21 * stride];
+	out[22 * stride] = 0x1.8618618618618p-9 /* 1/336 */ * sum[22 * stride];
+	out[23 * stride] = 0x1.3813813813814p-10 /* 1/840 */ * sum[23 * stride];
+	out[24 * stride] = 0x1.d41d41d41d41dp-11 /* 1/1120 */ * sum[24 * stride];
+	out[25 * stride] = 0x1.3813813813814p-10 /* 1/840 */ * sum[25 * stride];
+	out[26 * stride] = 0x1.8618618618618p-9 /* 1/336 */ * sum[26 * stride];
+	out[27 * stride] = 0x1.2492492492492p-6 /* 1/56 */ * sum[27 * stride];
+	out[28 * stride] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[28 * stride];
+	const double t0 = 7.0 * sum[36 * stride];
+	const double t1 = sum[29 * stride] + t0;
+	out[29 * stride] = 0x1.0410410410410p-9 /* 1/504 */ * t1;
+	const double t2 = 21.0 * sum[37 * stride];
+	const double t3 = sum[30 * stride] + t2;
+	out[30 * stride] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * t3;
+	const double t4 = 35.0 * sum[38 * stride];
+	const double t5 = sum[31 * stride] + t4;
+	out[31 * stride] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t5;
+	const double t6 = 35.0 * sum[39 * stride];
+	const double t7 = sum[32 * stride] + t6;
+	out[32 * stride] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t7;
+	const double t8 = 21.0 * sum[40 * stride];
+	const double t9 = sum[33 * stride] + t8;
+	out[33 * stride] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * t9;
+	const double t10 = 7.0 * sum[41 * stride];
+	const double t11 = sum[34 * stride] + t10;
+	out[34 * stride] = 0x1.0410410410410p-9 /* 1/504 */ * t11;
+	out[35 * stride] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[35 * stride];
 }
 
+const short ew_ring_moments_7_k[36] = {
+	3, 7, 7, 9, 10, 9, 11, 12, 13, 11, 13, 14, 15, 16, 13, 15,
+	16, 17, 18, 19, 15, 17, 18, 19, 20, 21, 22, 17, 18, 20, 21, 22,
+	23, 24, 25, 18
+};
+
 /* all moments of x^m y^n, m + n <= 8 */
-void ew_ring_moments_8_finish(const double *sum, double *out)
+void ew_ring_moments_8_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0.5 * sum[0];
-	out[1] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1];
-	out[2] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2];
-	out[3] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3];
-	out[4] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4];
-	out[5] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5];
-	out[6] = 0x1.999999999999ap-5 /* 1/20 */ * sum[6];
-	out[7] = 0x1.1111111111111p-6 /* 1/60 */ * sum[7];
-	out[8] = 0x1.1111111111111p-6 /* 1/60 */ * sum[8];
-	out[9] = 0x1.999999999999ap-5 /* 1/20 */ * sum[9];
-	out[10] = 0x1.1111111111111p-5 /* 1/30 */ * sum[10];
-	out[11] = 0x1.1111111111111p-7 /* 1/120 */ * sum[11];
-	out[12] = 0x1.6c16c16c16c17p-8 /* 1/180 */ * sum[12];
-	out[13] = 0x1.1111111111111p-7 /* 1/120 */ * sum[13];
-	out[14] = 0x1.1111111111111p-5 /* 1/30 */ * sum[14];
-	out[15] = 0x1.8618618618618p-6 /* 1/42 */ * sum[15];
-	out[16] = 0x1.3813813813814p-8 /* 1/210 */ * sum[16];
-	out[17] = 0x1.3813813813814p-9 /* 1/420 */ * sum[17];
-	out[18] = 0x1.3813813813814p-9 /* 1/420 */ * sum[18];
-	out[19] = 0x1.3813813813814p-8 /* 1/210 */ * sum[19];
-	out[20] = 0x1.8618618618618p-6 /* 1/42 */ * sum[20];
-	out[21] = 0x1.2492492492492p-6 /* 1/56 */ * sum[21];
-	out[22] = 0x1.8618618618618p-9 /* 1/336 */ * sum[22];
-	out[23] = 0x1.3813813813814p-10 /* 1/840 */ * sum[23];
-	out[24] = 0x1.d41d41d41d41dp-11 /* 1/1120 */ * sum[24];
-	out[25] = 0x1.3813813813814p-10 /* 1/840 */ * sum[25];
-	out[26] = 0x1.8618618618618p-9 /* 1/336 */ * sum[26];
-	out[27] = 0x1.2492492492492p-6 /* 1/56 */ * sum[27];
-	out[28] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[28];
-	out[29] = 0x1.0410410410410p-9 /* 1/504 */ * sum[29];
-	out[30] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * sum[30];
-	out[31] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * sum[31];
-	out[32] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * sum[32];
-	out[33] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * sum[33];
-	out[34] = 0x1.0410410410410p-9 /* 1/504 */ * sum[34];
-	out[35] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[35];
-	out[36] = 0x1.6c16c16c16c17p-7 /* 1/90 */ * sum[36];
-	const double t0 = 8.0 * sum[45];
-	const double t1 = sum[37] + t0;
-	out[37] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * t1;
-	const double t2 = 28.0 * sum[46];
-	const double t3 = sum[38] + t2;
-	out[38] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t3;
-	const double t4 = 56.0 * sum[47];
-	const double t5 = sum[39] + t4;
-	out[39] = 0x1.a01a01a01a01ap-13 /* 1/5040 */ * t5;
-	const double t6 = 70.0 * sum[48];
-	const double t7 = sum[40] + t6;
-	out[40] = 0x1.4ce19ae67b348p-13 /* 1/6300 */ * t7;
-	const double t8 = 56.0 * sum[49];
-	const double t9 = sum[41] + t8;
-	out[41] = 0x1.a01a01a01a01ap-13 /* 1/5040 */ * t9;
-	const double t10 = 28.0 * sum[50];
-	const double t11 = sum[42] + t10;
-	out[42] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t11;
-	const double t12 = 8.0 * sum[51];
-	const double t13 = sum[43] + t12;
-	out[43] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * t13;
-	out[44] = 0x1.6c16c16c16c17p-7 /* 1/90 */ * sum[44];
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
+	out[3 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3 * stride];
+	out[4 * stride] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4 * stride];
+	out[5 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5 * stride];
+	out[6 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[6 * stride];
+	out[7 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[7 * stride];
+	out[8 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[8 * stride];
+	out[9 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[9 * stride];
+	out[10 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[10 * stride];
+	out[11 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[11 * stride];
+	out[12 * stride] = 0x1.6c16c16c16c17p-8 /* 1/180 */ * sum[12 * stride];
+	out[13 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[13 * stride];
+	out[14 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[14 * stride];
+	out[15 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[15 * stride];
+	out[16 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * sum[16 * stride];
+	out[17 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * sum[17 * stride];
+	out[18 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * sum[18 * stride];
+	out[19 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * sum[19 * stride];
+	out[20 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[20 * stride];
+	out[21 * stride] = 0x1.2492492492492p-6 /* 1/56 */ * sum[21 * stride];
+	out[22 * stride] = 0x1.8618618618618p-9 /* 1/336 */ * sum[22 * stride];
+	out[23 * stride] = 0x1.3813813813814p-10 /* 1/840 */ * sum[23 * stride];
+	out[24 * stride] = 0x1.d41d41d41d41dp-11 /* 1/1120 */ * sum[24 * stride];
+	out[25 * stride] = 0x1.3813813813814p-10 /* 1/840 */ * sum[25 * stride];
+	out[26 * stride] = 0x1.8618618618618p-9 /* 1/336 */ * sum[26 * stride];
+	out[27 * stride] = 0x1.2492492492492p-6 /* 1/56 */ * sum[27 * stride];
+	out[28 * stride] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[28 * stride];
+	out[29 * stride] = 0x1.0410410410410p-9 /* 1/504 */ * sum[29 * stride];
+	out[30 * stride] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * sum[30 * stride];
+	out[31 * stride] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * sum[31 * stride];
+	out[32 * stride] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * sum[32 * stride];
+	out[33 * stride] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * sum[33 * stride];
+	out[34 * stride] = 0x1.0410410410410p-9 /* 1/504 */ * sum[34 * stride];
+	out[35 * stride] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[35 * stride];
+	out[36 * stride] = 0x1.6c16c16c16c17p-7 /* 1/90 */ * sum[36 * stride];
+	const double t0 = 8.0 * sum[45 * stride];
+	const double t1 = sum[37 * stride] + t0;
+	out[37 * stride] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * t1;
+	const double t2 = 28.0 * sum[46 * stride];
+	const double t3 = sum[38 * stride] + t2;
+	out[38 * stride] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t3;
+	const double t4 = 56.0 * sum[47 * stride];
+	const double t5 = sum[39 * stride] + t4;
+	out[39 * stride] = 0x1.a01a01a01a01ap-13 /* 1/5040 */ * t5;
+	const double t6 = 70.0 * sum[48 * stride];
+	const double t7 = sum[40 * stride] + t6;
+	out[40 * stride] = 0x1.4ce19ae67b348p-13 /* 1/6300 */ * t7;
+	const double t8 = 56.0 * sum[49 * stride];
+	const double t9 = sum[41 * stride] + t8;
+	out[41 * stride] = 0x1.a01a01a01a01ap-13 /* 1/5040 */ * t9;
+	const double t10 = 28.0 * sum[50 * stride];
+	const double t11 = sum[42 * stride] + t10;
+	out[42 * stride] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t11;
+	const double t12 = 8.0 * sum[51 * stride];
+	const double t13 = sum[43 * stride] + t12;
+	out[43 * stride] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * t13;
+	out[44 * stride] = 0x1.6c16c16c16c17p-7 /* 1/90 */ * sum[44 * stride];
+}
+
+const short ew_ring_moments_8_k[45] = {
+	3, 7, 7, 9, 10, 9, 11, 12, 13, 11, 13, 14, 15, 16, 13, 15,
+	16, 17, 18, 19, 15, 17, 18, 19, 20, 21, 22, 17, 19, 20, 21, 22,
+	23, 24, 25, 19, 20, 22, 23, 24, 25, 26, 27, 28, 20
+};
+
+/* all terms of x^m y^n, m + n <= 0, with positive sign */
+void ew_ring_magnitudes_0_finish(const double *sum, double *out, size_t stride)
+{
+	const double t0 = sum[0 * stride] + sum[1 * stride];
+	out[0 * stride] = 0.5 * t0;
+}
+
+/* all terms of x^m y^n, m + n <= 1, with positive sign */
+void ew_ring_magnitudes_1_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
+}
+
+/* all terms of x^m y^n, m + n <= 2, with positive sign */
+void ew_ring_magnitudes_2_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
+	out[3 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3 * stride];
+	const double t0 = 2.0 * sum[6 * stride];
+	const double t1 = sum[4 * stride] + t0;
+	out[4 * stride] = 0x1.5555555555555p-5 /* 1/24 */ * t1;
+	out[5 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5 * stride];
+}
+
+/* all terms of x^m y^n, m + n <= 3, with positive sign */
+void ew_ring_magnitudes_3_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
+	out[3 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3 * stride];
+	out[4 * stride] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4 * stride];
+	out[5 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5 * stride];
+	out[6 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[6 * stride];
+	const double t0 = 3.0 * sum[10 * stride];
+	const double t1 = sum[7 * stride] + t0;
+	out[7 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * t1;
+	const double t2 = 3.0 * sum[11 * stride];
+	const double t3 = sum[8 * stride] + t2;
+	out[8 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * t3;
+	out[9 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[9 * stride];
+}
+
+/* all terms of x^m y^n, m + n <= 4, with positive sign */
+void ew_ring_magnitudes_4_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
+	out[3 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3 * stride];
+	out[4 * stride] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4 * stride];
+	out[5 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5 * stride];
+	out[6 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[6 * stride];
+	out[7 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[7 * stride];
+	out[8 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[8 * stride];
+	out[9 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[9 * stride];
+	out[10 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[10 * stride];
+	const double t0 = 4.0 * sum[15 * stride];
+	const double t1 = sum[11 * stride] + t0;
+	out[11 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * t1;
+	const double t2 = 6.0 * sum[16 * stride];
+	const double t3 = sum[12 * stride] + t2;
+	out[12 * stride] = 0x1.6c16c16c16c17p-8 /* 1/180 */ * t3;
+	const double t4 = 4.0 * sum[17 * stride];
+	const double t5 = sum[13 * stride] + t4;
+	out[13 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * t5;
+	out[14 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[14 * stride];
+}
+
+/* all terms of x^m y^n, m + n <= 5, with positive sign */
+void ew_ring_magnitudes_5_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
+	out[3 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3 * stride];
+	out[4 * stride] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4 * stride];
+	out[5 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5 * stride];
+	out[6 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[6 * stride];
+	out[7 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[7 * stride];
+	out[8 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[8 * stride];
+	out[9 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[9 * stride];
+	out[10 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[10 * stride];
+	out[11 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[11 * stride];
+	out[12 * stride] = 0x1.6c16c16c16c17p-8 /* 1/180 */ * sum[12 * stride];
+	out[13 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[13 * stride];
+	out[14 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[14 * stride];
+	out[15 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[15 * stride];
+	const double t0 = 5.0 * sum[21 * stride];
+	const double t1 = sum[16 * stride] + t0;
+	out[16 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * t1;
+	const double t2 = 10.0 * sum[22 * stride];
+	const double t3 = sum[17 * stride] + t2;
+	out[17 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * t3;
+	const double t4 = 10.0 * sum[23 * stride];
+	const double t5 = sum[18 * stride] + t4;
+	out[18 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * t5;
+	const double t6 = 5.0 * sum[24 * stride];
+	const double t7 = sum[19 * stride] + t6;
+	out[19 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * t7;
+	out[20 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[20 * stride];
+}
+
+/* all terms of x^m y^n, m + n <= 6, with positive sign */
+void ew_ring_magnitudes_6_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
+	out[3 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3 * stride];
+	out[4 * stride] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4 * stride];
+	out[5 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5 * stride];
+	out[6 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[6 * stride];
+	out[7 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[7 * stride];
+	out[8 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[8 * stride];
+	out[9 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[9 * stride];
+	out[10 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[10 * stride];
+	out[11 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[11 * stride];
+	out[12 * stride] = 0x1.6c16c16c16c17p-8 /* 1/180 */ * sum[12 * stride];
+	out[13 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[13 * stride];
+	out[14 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[14 * stride];
+	out[15 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[15 * stride];
+	out[16 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * sum[16 * stride];
+	out[17 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * sum[17 * stride];
+	out[18 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * sum[18 * stride];
+	out[19 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * sum[19 * stride];
+	out[20 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[20 * stride];
+	out[21 * stride] = 0x1.2492492492492p-6 /* 1/56 */ * sum[21 * stride];
+	const double t0 = 6.0 * sum[28 * stride];
+	const double t1 = sum[22 * stride] + t0;
+	out[22 * stride] = 0x1.8618618618618p-9 /* 1/336 */ * t1;
+	const double t2 = 15.0 * sum[29 * stride];
+	const double t3 = sum[23 * stride] + t2;
+	out[23 * stride] = 0x1.3813813813814p-10 /* 1/840 */ * t3;
+	const double t4 = 20.0 * sum[30 * stride];
+	const double t5 = sum[24 * stride] + t4;
+	out[24 * stride] = 0x1.d41d41d41d41dp-11 /* 1/1120 */ * t5;
+	const double t6 = 15.0 * sum[31 * stride];
+	const double t7 = sum[25 * stride] + t6;
+	out[25 * stride] = 0x1.3813813813814p-10 /* 1/840 */ * t7;
+	const double t8 = 6.0 * sum[32 * stride];
+	const double t9 = sum[26 * stride] + t8;
+	out[26 * stride] = 0x1.8618618618618p-9 /* 1/336 */ * t9;
+	out[27 * stride] = 0x1.2492492492492p-6 /* 1/56 */ * sum[27 * stride];
+}
+
+/* all terms of x^m y^n, m + n <= 7, with positive sign */
+void ew_ring_magnitudes_7_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
+	out[3 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3 * stride];
+	out[4 * stride] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4 * stride];
+	out[5 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5 * stride];
+	out[6 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[6 * stride];
+	out[7 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[7 * stride];
+	out[8 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[8 * stride];
+	out[9 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[9 * stride];
+	out[10 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[10 * stride];
+	out[11 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[11 * stride];
+	out[12 * stride] = 0x1.6c16c16c16c17p-8 /* 1/180 */ * sum[12 * stride];
+	out[13 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[13 * stride];
+	out[14 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[14 * stride];
+	out[15 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[15 * stride];
+	out[16 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * sum[16 * stride];
+	out[17 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * sum[17 * stride];
+	out[18 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * sum[18 * stride];
+	out[19 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * sum[19 * stride];
+	out[20 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[20 * stride];
+	out[21 * stride] = 0x1.2492492492492p-6 /* 1/56 */ * sum[21 * stride];
+	out[22 * stride] = 0x1.8618618618618p-9 /* 1/336 */ * sum[22 * stride];
+	out[23 * stride] = 0x1.3813813813814p-10 /* 1/840 */ * sum[23 * stride];
+	out[24 * stride] = 0x1.d41d41d41d41dp-11 /* 1/1120 */ * sum[24 * stride];
+	out[25 * stride] = 0x1.3813813813814p-10 /* 1/840 */ * sum[25 * stride];
+	out[26 * stride] = 0x1.8618618618618p-9 /* 1/336 */ * sum[26 * stride];
+	out[27 * stride] = 0x1.2492492492492p-6 /* 1/56 */ * sum[27 * stride];
+	out[28 * stride] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[28 * stride];
+	const double t0 = 7.0 * sum[36 * stride];
+	const double t1 = sum[29 * stride] + t0;
+	out[29 * stride] = 0x1.0410410410410p-9 /* 1/504 */ * t1;
+	const double t2 = 21.0 * sum[37 * stride];
+	const double t3 = sum[30 * stride] + t2;
+	out[30 * stride] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * t3;
+	const double t4 = 35.0 * sum[38 * stride];
+	const double t5 = sum[31 * stride] + t4;
+	out[31 * stride] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t5;
+	const double t6 = 35.0 * sum[39 * stride];
+	const double t7 = sum[32 * stride] + t6;
+	out[32 * stride] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t7;
+	const double t8 = 21.0 * sum[40 * stride];
+	const double t9 = sum[33 * stride] + t8;
+	out[33 * stride] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * t9;
+	const double t10 = 7.0 * sum[41 * stride];
+	const double t11 = sum[34 * stride] + t10;
+	out[34 * stride] = 0x1.0410410410410p-9 /* 1/504 */ * t11;
+	out[35 * stride] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[35 * stride];
+}
+
+/* all terms of x^m y^n, m + n <= 8, with positive sign */
+void ew_ring_magnitudes_8_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[2 * stride];
+	out[3 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[3 * stride];
+	out[4 * stride] = 0x1.5555555555555p-5 /* 1/24 */ * sum[4 * stride];
+	out[5 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[5 * stride];
+	out[6 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[6 * stride];
+	out[7 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[7 * stride];
+	out[8 * stride] = 0x1.1111111111111p-6 /* 1/60 */ * sum[8 * stride];
+	out[9 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[9 * stride];
+	out[10 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[10 * stride];
+	out[11 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[11 * stride];
+	out[12 * stride] = 0x1.6c16c16c16c17p-8 /* 1/180 */ * sum[12 * stride];
+	out[13 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[13 * stride];
+	out[14 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[14 * stride];
+	out[15 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[15 * stride];
+	out[16 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * sum[16 * stride];
+	out[17 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * sum[17 * stride];
+	out[18 * stride] = 0x1.3813813813814p-9 /* 1/420 */ * sum[18 * stride];
+	out[19 * stride] = 0x1.3813813813814p-8 /* 1/210 */ * sum[19 * stride];
+	out[20 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[20 * stride];
+	out[21 * stride] = 0x1.2492492492492p-6 /* 1/56 */ * sum[21 * stride];
+	out[22 * stride] = 0x1.8618618618618p-9 /* 1/336 */ * sum[22 * stride];
+	out[23 * stride] = 0x1.3813813813814p-10 /* 1/840 */ * sum[23 * stride];
+	out[24 * stride] = 0x1.d41d41d41d41dp-11 /* 1/1120 */ * sum[24 * stride];
+	out[25 * stride] = 0x1.3813813813814p-10 /* 1/840 */ * sum[25 * stride];
+	out[26 * stride] = 0x1.8618618618618p-9 /* 1/336 */ * sum[26 * stride];
+	out[27 * stride] = 0x1.2492492492492p-6 /* 1/56 */ * sum[27 * stride];
+	out[28 * stride] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[28 * stride];
+	out[29 * stride] = 0x1.0410410410410p-9 /* 1/504 */ * sum[29 * stride];
+	out[30 * stride] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * sum[30 * stride];
+	out[31 * stride] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * sum[31 * stride];
+	out[32 * stride] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * sum[32 * stride];
+	out[33 * stride] = 0x1.5ac056b015ac0p-11 /* 1/1512 */ * sum[33 * stride];
+	out[34 * stride] = 0x1.0410410410410p-9 /* 1/504 */ * sum[34 * stride];
+	out[35 * stride] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[35 * stride];
+	out[36 * stride] = 0x1.6c16c16c16c17p-7 /* 1/90 */ * sum[36 * stride];
+	const double t0 = 8.0 * sum[45 * stride];
+	const double t1 = sum[37 * stride] + t0;
+	out[37 * stride] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * t1;
+	const double t2 = 28.0 * sum[46 * stride];
+	const double t3 = sum[38 * stride] + t2;
+	out[38 * stride] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t3;
+	const double t4 = 56.0 * sum[47 * stride];
+	const double t5 = sum[39 * stride] + t4;
+	out[39 * stride] = 0x1.a01a01a01a01ap-13 /* 1/5040 */ * t5;
+	const double t6 = 70.0 * sum[48 * stride];
+	const double t7 = sum[40 * stride] + t6;
+	out[40 * stride] = 0x1.4ce19ae67b348p-13 /* 1/6300 */ * t7;
+	const double t8 = 56.0 * sum[49 * stride];
+	const double t9 = sum[41 * stride] + t8;
+	out[41 * stride] = 0x1.a01a01a01a01ap-13 /* 1/5040 */ * t9;
+	const double t10 = 28.0 * sum[50 * stride];
+	const double t11 = sum[42 * stride] + t10;
+	out[42 * stride] = 0x1.a01a01a01a01ap-12 /* 1/2520 */ * t11;
+	const double t12 = 8.0 * sum[51 * stride];
+	const double t13 = sum[43 * stride] + t12;
+	out[43 * stride] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * t13;
+	out[44 * stride] = 0x1.6c16c16c16c17p-7 /* 1/90 */ * sum[44 * stride];
+}
+
+/* area, sum and what its roundings lost */
+void ew_ring_compensated_finish(const double *sum, double *out, size_t stride)
+{
+	const double t0 = sum[0 * stride] + sum[1 * stride];
+	out[0 * stride] = 0.5 * t0;
 }
 
 /* area */
-void ew_ring_x0y0_finish(const double *sum, double *out)
+void ew_ring_x0y0_finish(const double *sum, double *out, size_t stride)
 {
-	const double t0 = sum[0] + sum[1];
-	out[0] = 0.5 * t0;
+	const double t0 = sum[0 * stride] + sum[1 * stride];
+	out[0 * stride] = 0.5 * t0;
 }
 
 /* integral of x^1 y^0 */
-void ew_ring_x1y0_finish(const double *sum, double *out)
+void ew_ring_x1y0_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.5555555555555p-3 /* 1/6 */ * sum[0];
+	out[0 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[0 * stride];
 }
 
 /* integral of x^0 y^1 */
-void ew_ring_x0y1_finish(const double *sum, double *out)
+void ew_ring_x0y1_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.5555555555555p-3 /* 1/6 */ * sum[0];
+	out[0 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[0 * stride];
 }
 
 /* integral of x^2 y^0 */
-void ew_ring_x2y0_finish(const double *sum, double *out)
+void ew_ring_x2y0_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.5555555555555p-4 /* 1/12 */ * sum[0];
+	out[0 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[0 * stride];
 }
 
 /* integral of x^1 y^1 */
-void ew_ring_x1y1_finish(const double *sum, double *out)
+void ew_ring_x1y1_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.5555555555555p-5 /* 1/24 */ * sum[0];
+	out[0 * stride] = 0x1.5555555555555p-5 /* 1/24 */ * sum[0 * stride];
 }
 
 /* integral of x^0 y^2 */
-void ew_ring_x0y2_finish(const double *sum, double *out)
+void ew_ring_x0y2_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.5555555555555p-4 /* 1/12 */ * sum[0];
+	out[0 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[0 * stride];
 }
 
 /* integral of x^3 y^0 */
-void ew_ring_x3y0_finish(const double *sum, double *out)
+void ew_ring_x3y0_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.999999999999ap-6 /* 1/40 */ * sum[0];
+	out[0 * stride] = 0x1.999999999999ap-6 /* 1/40 */ * sum[0 * stride];
 }
 
 /* integral of x^2 y^1 */
-void ew_ring_x2y1_finish(const double *sum, double *out)
+void ew_ring_x2y1_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.1111111111111p-7 /* 1/120 */ * sum[0];
+	out[0 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[0 * stride];
 }
 
 /* integral of x^1 y^2 */
-void ew_ring_x1y2_finish(const double *sum, double *out)
+void ew_ring_x1y2_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.1111111111111p-7 /* 1/120 */ * sum[0];
+	out[0 * stride] = 0x1.1111111111111p-7 /* 1/120 */ * sum[0 * stride];
 }
 
 /* integral of x^0 y^3 */
-void ew_ring_x0y3_finish(const double *sum, double *out)
+void ew_ring_x0y3_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.999999999999ap-6 /* 1/40 */ * sum[0];
+	out[0 * stride] = 0x1.999999999999ap-6 /* 1/40 */ * sum[0 * stride];
 }
 
 /* integral of x^4 y^0 */
-void ew_ring_x4y0_finish(const double *sum, double *out)
+void ew_ring_x4y0_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.1111111111111p-5 /* 1/30 */ * sum[0];
+	out[0 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[0 * stride];
 }
 
 /* integral of x^3 y^1 */
-void ew_ring_x3y1_finish(const double *sum, double *out)
+void ew_ring_x3y1_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.5555555555555p-7 /* 1/96 */ * sum[0];
+	out[0 * stride] = 0x1.5555555555555p-7 /* 1/96 */ * sum[0 * stride];
 }
 
 /* integral of x^2 y^2 */
-void ew_ring_x2y2_finish(const double *sum, double *out)
+void ew_ring_x2y2_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.c71c71c71c71cp-9 /* 1/288 */ * sum[0];
+	out[0 * stride] = 0x1.c71c71c71c71cp-9 /* 1/288 */ * sum[0 * stride];
 }
 
 /* integral of x^1 y^3 */
-void ew_ring_x1y3_finish(const double *sum, double *out)
+void ew_ring_x1y3_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.5555555555555p-7 /* 1/96 */ * sum[0];
+	out[0 * stride] = 0x1.5555555555555p-7 /* 1/96 */ * sum[0 * stride];
 }
 
 /* integral of x^0 y^4 */
-void ew_ring_x0y4_finish(const double *sum, double *out)
+void ew_ring_x0y4_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.1111111111111p-5 /* 1/30 */ * sum[0];
+	out[0 * stride] = 0x1.1111111111111p-5 /* 1/30 */ * sum[0 * stride];
 }
 
 /* integral of x^5 y^0 */
-void ew_ring_x5y0_finish(const double *sum, double *out)
+void ew_ring_x5y0_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.8618618618618p-6 /* 1/42 */ * sum[0];
+	out[0 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[0 * stride];
 }
 
 /* integral of x^4 y^1 */
-void ew_ring_x4y1_finish(const double *sum, double *out)
+void ew_ring_x4y1_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.2492492492492p-8 /* 1/224 */ * sum[0];
+	out[0 * stride] = 0x1.2492492492492p-8 /* 1/224 */ * sum[0 * stride];
 }
 
 /* integral of x^3 y^2 */
-void ew_ring_x3y2_finish(const double *sum, double *out)
+void ew_ring_x3y2_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.2492492492492p-8 /* 1/224 */ * sum[0];
+	out[0 * stride] = 0x1.2492492492492p-8 /* 1/224 */ * sum[0 * stride];
 }
 
 /* integral of x^2 y^3 */
-void ew_ring_x2y3_finish(const double *sum, double *out)
+void ew_ring_x2y3_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.2492492492492p-8 /* 1/224 */ * sum[0];
+	out[0 * stride] = 0x1.2492492492492p-8 /* 1/224 */ * sum[0 * stride];
 }
 
 /* integral of x^1 y^4 */
-void ew_ring_x1y4_finish(const double *sum, double *out)
+void ew_ring_x1y4_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.2492492492492p-8 /* 1/224 */ * sum[0];
+	out[0 * stride] = 0x1.2492492492492p-8 /* 1/224 */ * sum[0 * stride];
 }
 
 /* integral of x^0 y^5 */
-void ew_ring_x0y5_finish(const double *sum, double *out)
+void ew_ring_x0y5_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.8618618618618p-6 /* 1/42 */ * sum[0];
+	out[0 * stride] = 0x1.8618618618618p-6 /* 1/42 */ * sum[0 * stride];
 }
 
 /* integral of x^6 y^0 */
-void ew_ring_x6y0_finish(const double *sum, double *out)
+void ew_ring_x6y0_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.2492492492492p-6 /* 1/56 */ * sum[0];
+	out[0 * stride] = 0x1.2492492492492p-6 /* 1/56 */ * sum[0 * stride];
 }
 
 /* integral of x^5 y^1 */
-void ew_ring_x5y1_finish(const double *sum, double *out)
+void ew_ring_x5y1_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.0000000000000p-9 /* 1/512 */ * sum[0];
+	out[0 * stride] = 0x1.0000000000000p-9 /* 1/512 */ * sum[0 * stride];
 }
 
 /* integral of x^4 y^2 */
-void ew_ring_x4y2_finish(const double *sum, double *out)
+void ew_ring_x4y2_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.0000000000000p-9 /* 1/512 */ * sum[0];
+	out[0 * stride] = 0x1.0000000000000p-9 /* 1/512 */ * sum[0 * stride];
 }
 
 /* integral of x^3 y^3 */
-void ew_ring_x3y3_finish(const double *sum, double *out)
+void ew_ring_x3y3_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.3333333333333p-10 /* 3/2560 */ * sum[0];
+	out[0 * stride] = 0x1.3333333333333p-10 /* 3/2560 */ * sum[0 * stride];
 }
 
 /* integral of x^2 y^4 */
-void ew_ring_x2y4_finish(const double *sum, double *out)
+void ew_ring_x2y4_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.0000000000000p-9 /* 1/512 */ * sum[0];
+	out[0 * stride] = 0x1.0000000000000p-9 /* 1/512 */ * sum[0 * stride];
 }
 
 /* integral of x^1 y^5 */
-void ew_ring_x1y5_finish(const double *sum, double *out)
+void ew_ring_x1y5_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.0000000000000p-9 /* 1/512 */ * sum[0];
+	out[0 * stride] = 0x1.0000000000000p-9 /* 1/512 */ * sum[0 * stride];
 }
 
 /* integral of x^0 y^6 */
-void ew_ring_x0y6_finish(const double *sum, double *out)
+void ew_ring_x0y6_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.2492492492492p-6 /* 1/56 */ * sum[0];
+	out[0 * stride] = 0x1.2492492492492p-6 /* 1/56 */ * sum[0 * stride];
 }
 
 /* integral of x^7 y^0 */
-void ew_ring_x7y0_finish(const double *sum, double *out)
+void ew_ring_x7y0_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[0];
+	out[0 * stride] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[0 * stride];
 }
 
 /* integral of x^6 y^1 */
-void ew_ring_x6y1_finish(const double *sum, double *out)
+void ew_ring_x6y1_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.0410410410410p-9 /* 1/504 */ * sum[0];
+	out[0 * stride] = 0x1.0410410410410p-9 /* 1/504 */ * sum[0 * stride];
 }
 
 /* integral of x^5 y^2 */
-void ew_ring_x5y2_finish(const double *sum, double *out)
+void ew_ring_x5y2_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.0410410410410p-8 /* 1/252 */ * sum[0];
+	out[0 * stride] = 0x1.0410410410410p-8 /* 1/252 */ * sum[0 * stride];
 }
 
 /* integral of x^4 y^3 */
-void ew_ring_x4y3_finish(const double *sum, double *out)
+void ew_ring_x4y3_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.0410410410410p-7 /* 1/126 */ * sum[0];
+	out[0 * stride] = 0x1.0410410410410p-7 /* 1/126 */ * sum[0 * stride];
 }
 
 /* integral of x^3 y^4 */
-void ew_ring_x3y4_finish(const double *sum, double *out)
+void ew_ring_x3y4_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.0410410410410p-7 /* 1/126 */ * sum[0];
+	out[0 * stride] = 0x1.0410410410410p-7 /* 1/126 */ * sum[0 * stride];
 }
 
 /* integral of x^2 y^5 */
-void ew_ring_x2y5_finish(const double *sum, double *out)
+void ew_ring_x2y5_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.b1706c5c1b170p-8 /* 5/756 */ * sum[0];
+	out[0 * stride] = 0x1.b1706c5c1b170p-8 /* 5/756 */ * sum[0 * stride];
 }
 
 /* integral of x^1 y^6 */
-void ew_ring_x1y6_finish(const double *sum, double *out)
+void ew_ring_x1y6_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.0410410410410p-9 /* 1/504 */ * sum[0];
+	out[0 * stride] = 0x1.0410410410410p-9 /* 1/504 */ * sum[0 * stride];
 }
 
 /* integral of x^0 y^7 */
-void ew_ring_x0y7_finish(const double *sum, double *out)
+void ew_ring_x0y7_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[0];
+	out[0 * stride] = 0x1.c71c71c71c71cp-7 /* 1/72 */ * sum[0 * stride];
 }
 
 /* integral of x^8 y^0 */
-void ew_ring_x8y0_finish(const double *sum, double *out)
+void ew_ring_x8y0_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.6c16c16c16c17p-7 /* 1/90 */ * sum[0];
+	out[0 * stride] = 0x1.6c16c16c16c17p-7 /* 1/90 */ * sum[0 * stride];
 }
 
 /* integral of x^7 y^1 */
-void ew_ring_x7y1_finish(const double *sum, double *out)
+void ew_ring_x7y1_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * sum[0];
+	out[0 * stride] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * sum[0 * stride];
 }
 
 /* integral of x^6 y^2 */
-void ew_ring_x6y2_finish(const double *sum, double *out)
+void ew_ring_x6y2_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.8618618618618p-8 /* 1/168 */ * sum[0];
+	out[0 * stride] = 0x1.8618618618618p-8 /* 1/168 */ * sum[0 * stride];
 }
 
 /* integral of x^5 y^3 */
-void ew_ring_x5y3_finish(const double *sum, double *out)
+void ew_ring_x5y3_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.8618618618618p-8 /* 1/168 */ * sum[0];
+	out[0 * stride] = 0x1.8618618618618p-8 /* 1/168 */ * sum[0 * stride];
 }
 
 /* integral of x^4 y^4 */
-void ew_ring_x4y4_finish(const double *sum, double *out)
+void ew_ring_x4y4_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.4ce19ae67b348p-13 /* 1/6300 */ * sum[0];
+	out[0 * stride] = 0x1.4ce19ae67b348p-13 /* 1/6300 */ * sum[0 * stride];
 }
 
 /* integral of x^3 y^5 */
-void ew_ring_x3y5_finish(const double *sum, double *out)
+void ew_ring_x3y5_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.8618618618618p-8 /* 1/168 */ * sum[0];
+	out[0 * stride] = 0x1.8618618618618p-8 /* 1/168 */ * sum[0 * stride];
 }
 
 /* integral of x^2 y^6 */
-void ew_ring_x2y6_finish(const double *sum, double *out)
+void ew_ring_x2y6_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.8618618618618p-8 /* 1/168 */ * sum[0];
+	out[0 * stride] = 0x1.8618618618618p-8 /* 1/168 */ * sum[0 * stride];
 }
 
 /* integral of x^1 y^7 */
-void ew_ring_x1y7_finish(const double *sum, double *out)
+void ew_ring_x1y7_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * sum[0];
+	out[0 * stride] = 0x1.6c16c16c16c17p-10 /* 1/720 */ * sum[0 * stride];
 }
 
 /* integral of x^0 y^8 */
-void ew_ring_x0y8_finish(const double *sum, double *out)
+void ew_ring_x0y8_finish(const double *sum, double *out, size_t stride)
 {
-	out[0] = 0x1.6c16c16c16c17p-7 /* 1/90 */ * sum[0];
+	out[0 * stride] = 0x1.6c16c16c16c17p-7 /* 1/90 */ * sum[0 * stride];
 }

@@ -16,40 +16,62 @@
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y0_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	const __m256d cx = _mm256_set1_pd(origin);
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
+		const __m256d cx = _mm256_loadu_pd(origin + pass);
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
 		__m256d acc1 = _mm256_loadu_pd(sum + 8 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + step + 3 < count; i += 2 * step) {
+			{
+				__m256d y0 = _mm256_loadu_pd(y + i);
+				EW_KEEP(y0);
+				__m256d x1 = _mm256_loadu_pd(x + i + reach);
+				EW_KEEP(x1);
+				__m256d y2 = _mm256_loadu_pd(y + i + 2 * reach);
+				EW_KEEP(y2);
+				const __m256d width = _mm256_sub_pd(x1, cx);
+				const __m256d height = _mm256_sub_pd(y2, y0);
+				acc0 = _mm256_fmadd_pd(width, height, acc0);
+			}
+			{
+				__m256d y0 = _mm256_loadu_pd(y + i + step);
+				EW_KEEP(y0);
+				__m256d x1 = _mm256_loadu_pd(x + i + step + reach);
+				EW_KEEP(x1);
+				__m256d y2 = _mm256_loadu_pd(y + i + step + 2 * reach);
+				EW_KEEP(y2);
+				const __m256d width = _mm256_sub_pd(x1, cx);
+				const __m256d height = _mm256_sub_pd(y2, y0);
+				acc1 = _mm256_fmadd_pd(width, height, acc1);
+			}
+		}
+		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
 				double pad[4][4];
-				const double *at_y0 = rest < 4
-					? ew_ring_pad(pad[0], y + i, rest, 4) : y + i;
+				int at = 0;
+				const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 				const __m256d y0 = _mm256_loadu_pd(at_y0);
-				const double *at_x1 = rest < 4
-					? ew_ring_pad(pad[1], x + i + 1, rest, 4) : x + i + 1;
+				const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 				const __m256d x1 = _mm256_loadu_pd(at_x1);
-				const double *at_y2 = rest < 4
-					? ew_ring_pad(pad[2], y + i + 2, rest, 4) : y + i + 2;
+				const double *at_y2 = ew_ring_pad(pad[at++], y + i + 2 * reach, rest, 4);
 				const __m256d y2 = _mm256_loadu_pd(at_y2);
 				const __m256d width = _mm256_sub_pd(x1, cx);
 				const __m256d height = _mm256_sub_pd(y2, y0);
 				acc0 = _mm256_fmadd_pd(width, height, acc0);
 			}
 			{
-				const size_t rest = count - i > 8 ? count - i - 8 : 0;
+				const size_t rest = count - i > step ? count - i - step : 0;
 				double pad[4][4];
-				const double *at_y0 = rest < 4
-					? ew_ring_pad(pad[0], y + i + 8, rest, 4) : y + i + 8;
+				int at = 0;
+				const double *at_y0 = ew_ring_pad(pad[at++], y + i + step, rest, 4);
 				const __m256d y0 = _mm256_loadu_pd(at_y0);
-				const double *at_x1 = rest < 4
-					? ew_ring_pad(pad[1], x + i + 9, rest, 4) : x + i + 9;
+				const double *at_x1 = ew_ring_pad(pad[at++], x + i + step + reach, rest, 4);
 				const __m256d x1 = _mm256_loadu_pd(at_x1);
-				const double *at_y2 = rest < 4
-					? ew_ring_pad(pad[2], y + i + 10, rest, 4) : y + i + 10;
+				const double *at_y2 = ew_ring_pad(pad[at++], y + i + step + 2 * reach, rest, 4);
 				const __m256d y2 = _mm256_loadu_pd(at_y2);
 				const __m256d width = _mm256_sub_pd(x1, cx);
 				const __m256d height = _mm256_sub_pd(y2, y0);
@@ -64,25 +86,39 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y0_avx2(
 /* integral of x^1 y^0; scheme matrix.
  * Cost per item: 3 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 3. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x1y0_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_add_pd(x0, x1);
+			acc0 = _mm256_fmadd_pd(s, t2, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -97,25 +133,39 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x1y0_avx2(
 /* integral of x^0 y^1; scheme matrix.
  * Cost per item: 3 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 3. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y1_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_add_pd(y0, y1);
+			acc0 = _mm256_fmadd_pd(s, t2, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -130,25 +180,41 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y1_avx2(
 /* integral of x^2 y^0; scheme horner.
  * Cost per item: 5 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 4. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x2y0_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_add_pd(x0, x1);
+			const __m256d t3 = _mm256_mul_pd(t2, x0);
+			const __m256d t4 = _mm256_fmadd_pd(x1, x1, t3);
+			acc0 = _mm256_fmadd_pd(s, t4, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -165,25 +231,42 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x2y0_avx2(
 /* integral of x^1 y^1; scheme matrix.
  * Cost per item: 7 mul or fma, 1 add; 1 accumulators, 7 values alive, depth 4. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x1y1_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), y1, y0);
+			const __m256d t3 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), y0, y1);
+			const __m256d t4 = _mm256_mul_pd(t3, x0);
+			const __m256d t5 = _mm256_fmadd_pd(t2, x1, t4);
+			acc0 = _mm256_fmadd_pd(s, t5, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -201,25 +284,41 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x1y1_avx2(
 /* integral of x^0 y^2; scheme horner.
  * Cost per item: 5 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 4. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y2_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_add_pd(y0, y1);
+			const __m256d t3 = _mm256_mul_pd(t2, y0);
+			const __m256d t4 = _mm256_fmadd_pd(y1, y1, t3);
+			acc0 = _mm256_fmadd_pd(s, t4, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -236,25 +335,43 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y2_avx2(
 /* integral of x^3 y^0; scheme even-power.
  * Cost per item: 6 mul or fma, 3 add; 1 accumulators, 5 values alive, depth 5. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x3y0_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d t2 = _mm256_mul_pd(a, a);
+			const __m256d t3 = _mm256_fmadd_pd(e, e, t2);
+			const __m256d t4 = _mm256_mul_pd(a, t3);
+			acc0 = _mm256_fmadd_pd(s, t4, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -273,25 +390,49 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x3y0_avx2(
 /* integral of x^2 y^1; scheme even-power.
  * Cost per item: 10 mul or fma, 5 add; 1 accumulators, 7 values alive, depth 7. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x2y1_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d t2 = _mm256_mul_pd(a, a);
+			const __m256d t3 = _mm256_mul_pd(_mm256_set1_pd(3.0), t2);
+			const __m256d t4 = _mm256_fmadd_pd(e, e, t3);
+			const __m256d t5 = _mm256_mul_pd(b, t4);
+			const __m256d t6 = _mm256_mul_pd(a, e);
+			const __m256d t7 = _mm256_mul_pd(f, t6);
+			const __m256d t8 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t7, t5);
+			acc0 = _mm256_fmadd_pd(s, t8, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -316,25 +457,49 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x2y1_avx2(
 /* integral of x^1 y^2; scheme even-power.
  * Cost per item: 10 mul or fma, 5 add; 1 accumulators, 7 values alive, depth 7. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x1y2_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d t2 = _mm256_mul_pd(b, b);
+			const __m256d t3 = _mm256_mul_pd(_mm256_set1_pd(3.0), t2);
+			const __m256d t4 = _mm256_fmadd_pd(f, f, t3);
+			const __m256d t5 = _mm256_mul_pd(a, t4);
+			const __m256d t6 = _mm256_mul_pd(b, f);
+			const __m256d t7 = _mm256_mul_pd(e, t6);
+			const __m256d t8 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t7, t5);
+			acc0 = _mm256_fmadd_pd(s, t8, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -359,25 +524,43 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x1y2_avx2(
 /* integral of x^0 y^3; scheme even-power.
  * Cost per item: 6 mul or fma, 3 add; 1 accumulators, 5 values alive, depth 5. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y3_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d t2 = _mm256_mul_pd(b, b);
+			const __m256d t3 = _mm256_fmadd_pd(f, f, t2);
+			const __m256d t4 = _mm256_mul_pd(b, t3);
+			acc0 = _mm256_fmadd_pd(s, t4, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -396,25 +579,45 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y3_avx2(
 /* integral of x^4 y^0; scheme horner.
  * Cost per item: 9 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 6. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x4y0_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_add_pd(x0, x1);
+			const __m256d t3 = _mm256_mul_pd(x1, x1);
+			const __m256d t4 = _mm256_fmadd_pd(t2, x0, t3);
+			const __m256d t5 = _mm256_mul_pd(t3, x1);
+			const __m256d t6 = _mm256_fmadd_pd(t4, x0, t5);
+			const __m256d t7 = _mm256_mul_pd(t6, x0);
+			const __m256d t8 = _mm256_fmadd_pd(t5, x1, t7);
+			acc0 = _mm256_fmadd_pd(s, t8, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -435,25 +638,50 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x4y0_avx2(
 /* integral of x^3 y^1; scheme even-power.
  * Cost per item: 10 mul or fma, 6 add; 1 accumulators, 9 values alive, depth 6. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x3y1_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d t2 = _mm256_mul_pd(a, a);
+			const __m256d t3 = _mm256_mul_pd(e, e);
+			const __m256d t4 = _mm256_add_pd(t2, t3);
+			const __m256d t5 = _mm256_mul_pd(a, b);
+			const __m256d t6 = _mm256_mul_pd(t4, t5);
+			const __m256d t7 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t3, t2);
+			const __m256d t8 = _mm256_mul_pd(e, f);
+			const __m256d t9 = _mm256_fmadd_pd(t7, t8, t6);
+			acc0 = _mm256_fmadd_pd(s, t9, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -479,25 +707,54 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x3y1_avx2(
 /* integral of x^2 y^2; scheme even-power.
  * Cost per item: 15 mul or fma, 5 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x2y2_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d t2 = _mm256_mul_pd(b, b);
+			const __m256d t3 = _mm256_mul_pd(f, f);
+			const __m256d t4 = _mm256_fmadd_pd(_mm256_set1_pd(3.0), t2, t3);
+			const __m256d t5 = _mm256_mul_pd(a, a);
+			const __m256d t6 = _mm256_mul_pd(t4, t5);
+			const __m256d t7 = _mm256_mul_pd(a, e);
+			const __m256d t8 = _mm256_mul_pd(b, f);
+			const __m256d t9 = _mm256_mul_pd(t7, t8);
+			const __m256d t10 = _mm256_fmadd_pd(_mm256_set1_pd(4.0), t9, t6);
+			const __m256d t11 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p-1 /* 3/5 */), t3, t2);
+			const __m256d t12 = _mm256_mul_pd(e, e);
+			const __m256d t13 = _mm256_fmadd_pd(t11, t12, t10);
+			acc0 = _mm256_fmadd_pd(s, t13, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -527,25 +784,50 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x2y2_avx2(
 /* integral of x^1 y^3; scheme even-power.
  * Cost per item: 10 mul or fma, 6 add; 1 accumulators, 9 values alive, depth 6. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x1y3_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d t2 = _mm256_mul_pd(b, b);
+			const __m256d t3 = _mm256_mul_pd(f, f);
+			const __m256d t4 = _mm256_add_pd(t2, t3);
+			const __m256d t5 = _mm256_mul_pd(a, b);
+			const __m256d t6 = _mm256_mul_pd(t4, t5);
+			const __m256d t7 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t3, t2);
+			const __m256d t8 = _mm256_mul_pd(e, f);
+			const __m256d t9 = _mm256_fmadd_pd(t7, t8, t6);
+			acc0 = _mm256_fmadd_pd(s, t9, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -571,25 +853,45 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x1y3_avx2(
 /* integral of x^0 y^4; scheme horner.
  * Cost per item: 9 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 6. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y4_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_add_pd(y0, y1);
+			const __m256d t3 = _mm256_mul_pd(y1, y1);
+			const __m256d t4 = _mm256_fmadd_pd(t2, y0, t3);
+			const __m256d t5 = _mm256_mul_pd(t3, y1);
+			const __m256d t6 = _mm256_fmadd_pd(t4, y0, t5);
+			const __m256d t7 = _mm256_mul_pd(t6, y0);
+			const __m256d t8 = _mm256_fmadd_pd(t5, y1, t7);
+			acc0 = _mm256_fmadd_pd(s, t8, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -610,25 +912,47 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y4_avx2(
 /* integral of x^5 y^0; scheme horner.
  * Cost per item: 11 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 7. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x5y0_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_add_pd(x0, x1);
+			const __m256d t3 = _mm256_mul_pd(x1, x1);
+			const __m256d t4 = _mm256_fmadd_pd(t2, x0, t3);
+			const __m256d t5 = _mm256_mul_pd(t3, x1);
+			const __m256d t6 = _mm256_fmadd_pd(t4, x0, t5);
+			const __m256d t7 = _mm256_mul_pd(t5, x1);
+			const __m256d t8 = _mm256_fmadd_pd(t6, x0, t7);
+			const __m256d t9 = _mm256_mul_pd(t8, x0);
+			const __m256d t10 = _mm256_fmadd_pd(t7, x1, t9);
+			acc0 = _mm256_fmadd_pd(s, t10, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -651,25 +975,55 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x5y0_avx2(
 /* integral of x^4 y^1; scheme even-power.
  * Cost per item: 16 mul or fma, 5 add; 1 accumulators, 9 values alive, depth 8. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x4y1_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d t2 = _mm256_mul_pd(a, a);
+			const __m256d t3 = _mm256_mul_pd(t2, t2);
+			const __m256d t4 = _mm256_mul_pd(a, e);
+			const __m256d t5 = _mm256_mul_pd(t4, t4);
+			const __m256d t6 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t5, t3);
+			const __m256d t7 = _mm256_mul_pd(e, e);
+			const __m256d t8 = _mm256_mul_pd(t7, t7);
+			const __m256d t9 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t8, t6);
+			const __m256d t10 = _mm256_mul_pd(b, t9);
+			const __m256d t11 = _mm256_mul_pd(_mm256_set1_pd(0x1.5555555555555p0 /* 4/3 */), t2);
+			const __m256d t12 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-1 /* 4/5 */), t7, t11);
+			const __m256d t13 = _mm256_mul_pd(f, t4);
+			const __m256d t14 = _mm256_fmadd_pd(t12, t13, t10);
+			acc0 = _mm256_fmadd_pd(s, t14, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -700,25 +1054,58 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x4y1_avx2(
 /* integral of x^3 y^2; scheme even-power.
  * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x3y2_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d t2 = _mm256_mul_pd(a, a);
+			const __m256d t3 = _mm256_mul_pd(e, e);
+			const __m256d t4 = _mm256_add_pd(t2, t3);
+			const __m256d t5 = _mm256_mul_pd(b, b);
+			const __m256d t6 = _mm256_mul_pd(a, t5);
+			const __m256d t7 = _mm256_mul_pd(t4, t6);
+			const __m256d t8 = _mm256_mul_pd(_mm256_set1_pd(2.0), t2);
+			const __m256d t9 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-2 /* 2/5 */), t3, t8);
+			const __m256d t10 = _mm256_mul_pd(b, f);
+			const __m256d t11 = _mm256_mul_pd(e, t10);
+			const __m256d t12 = _mm256_fmadd_pd(t9, t11, t7);
+			const __m256d t13 = _mm256_mul_pd(_mm256_set1_pd(0x1.5555555555555p-2 /* 1/3 */), t2);
+			const __m256d t14 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p-1 /* 3/5 */), t3, t13);
+			const __m256d t15 = _mm256_mul_pd(f, f);
+			const __m256d t16 = _mm256_mul_pd(a, t15);
+			const __m256d t17 = _mm256_fmadd_pd(t14, t16, t12);
+			acc0 = _mm256_fmadd_pd(s, t17, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -752,25 +1139,58 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x3y2_avx2(
 /* integral of x^2 y^3; scheme even-power.
  * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x2y3_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d t2 = _mm256_mul_pd(b, b);
+			const __m256d t3 = _mm256_mul_pd(f, f);
+			const __m256d t4 = _mm256_add_pd(t2, t3);
+			const __m256d t5 = _mm256_mul_pd(a, a);
+			const __m256d t6 = _mm256_mul_pd(b, t5);
+			const __m256d t7 = _mm256_mul_pd(t4, t6);
+			const __m256d t8 = _mm256_mul_pd(_mm256_set1_pd(2.0), t2);
+			const __m256d t9 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-2 /* 2/5 */), t3, t8);
+			const __m256d t10 = _mm256_mul_pd(a, e);
+			const __m256d t11 = _mm256_mul_pd(f, t10);
+			const __m256d t12 = _mm256_fmadd_pd(t9, t11, t7);
+			const __m256d t13 = _mm256_mul_pd(_mm256_set1_pd(0x1.5555555555555p-2 /* 1/3 */), t2);
+			const __m256d t14 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p-1 /* 3/5 */), t3, t13);
+			const __m256d t15 = _mm256_mul_pd(e, e);
+			const __m256d t16 = _mm256_mul_pd(b, t15);
+			const __m256d t17 = _mm256_fmadd_pd(t14, t16, t12);
+			acc0 = _mm256_fmadd_pd(s, t17, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -804,25 +1224,55 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x2y3_avx2(
 /* integral of x^1 y^4; scheme even-power.
  * Cost per item: 16 mul or fma, 5 add; 1 accumulators, 9 values alive, depth 8. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x1y4_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d t2 = _mm256_mul_pd(b, b);
+			const __m256d t3 = _mm256_mul_pd(t2, t2);
+			const __m256d t4 = _mm256_mul_pd(b, f);
+			const __m256d t5 = _mm256_mul_pd(t4, t4);
+			const __m256d t6 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t5, t3);
+			const __m256d t7 = _mm256_mul_pd(f, f);
+			const __m256d t8 = _mm256_mul_pd(t7, t7);
+			const __m256d t9 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t8, t6);
+			const __m256d t10 = _mm256_mul_pd(a, t9);
+			const __m256d t11 = _mm256_mul_pd(_mm256_set1_pd(0x1.5555555555555p0 /* 4/3 */), t2);
+			const __m256d t12 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-1 /* 4/5 */), t7, t11);
+			const __m256d t13 = _mm256_mul_pd(e, t4);
+			const __m256d t14 = _mm256_fmadd_pd(t12, t13, t10);
+			acc0 = _mm256_fmadd_pd(s, t14, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -853,25 +1303,47 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x1y4_avx2(
 /* integral of x^0 y^5; scheme horner.
  * Cost per item: 11 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 7. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y5_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_add_pd(y0, y1);
+			const __m256d t3 = _mm256_mul_pd(y1, y1);
+			const __m256d t4 = _mm256_fmadd_pd(t2, y0, t3);
+			const __m256d t5 = _mm256_mul_pd(t3, y1);
+			const __m256d t6 = _mm256_fmadd_pd(t4, y0, t5);
+			const __m256d t7 = _mm256_mul_pd(t5, y1);
+			const __m256d t8 = _mm256_fmadd_pd(t6, y0, t7);
+			const __m256d t9 = _mm256_mul_pd(t8, y0);
+			const __m256d t10 = _mm256_fmadd_pd(t7, y1, t9);
+			acc0 = _mm256_fmadd_pd(s, t10, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -894,25 +1366,49 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y5_avx2(
 /* integral of x^6 y^0; scheme horner.
  * Cost per item: 13 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 8. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x6y0_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_add_pd(x0, x1);
+			const __m256d t3 = _mm256_mul_pd(x1, x1);
+			const __m256d t4 = _mm256_fmadd_pd(t2, x0, t3);
+			const __m256d t5 = _mm256_mul_pd(t3, x1);
+			const __m256d t6 = _mm256_fmadd_pd(t4, x0, t5);
+			const __m256d t7 = _mm256_mul_pd(t5, x1);
+			const __m256d t8 = _mm256_fmadd_pd(t6, x0, t7);
+			const __m256d t9 = _mm256_mul_pd(t7, x1);
+			const __m256d t10 = _mm256_fmadd_pd(t8, x0, t9);
+			const __m256d t11 = _mm256_mul_pd(t10, x0);
+			const __m256d t12 = _mm256_fmadd_pd(t9, x1, t11);
+			acc0 = _mm256_fmadd_pd(s, t12, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -937,25 +1433,57 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x6y0_avx2(
 /* integral of x^5 y^1; scheme even-power.
  * Cost per item: 17 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 8. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x5y1_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d t0 = _mm256_mul_pd(a, e);
+			const __m256d t1 = _mm256_mul_pd(t0, t0);
+			const __m256d t2 = _mm256_mul_pd(a, a);
+			const __m256d t3 = _mm256_mul_pd(t2, t2);
+			const __m256d t4 = _mm256_mul_pd(_mm256_set1_pd(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t3);
+			const __m256d t5 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t1, t4);
+			const __m256d t6 = _mm256_mul_pd(e, e);
+			const __m256d t7 = _mm256_mul_pd(t6, t6);
+			const __m256d t8 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.2492492492492p-3 /* 1/7 */), t7, t5);
+			const __m256d t9 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.aaaaaaaaaaaabp1 /* 10/3 */), t1, t3);
+			const __m256d t10 = _mm256_add_pd(t9, t7);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d t11 = _mm256_mul_pd(a, b);
+			const __m256d t12 = _mm256_mul_pd(t10, t11);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d t13 = _mm256_mul_pd(e, f);
+			const __m256d t14 = _mm256_fmadd_pd(t8, t13, t12);
+			const __m256d t15 = _mm256_mul_pd(x0, y1);
+			const __m256d t16 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t15, t16);
+			acc0 = _mm256_fmadd_pd(s, t14, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d a = _mm256_add_pd(x0, x1);
 			const __m256d e = _mm256_sub_pd(x1, x0);
@@ -988,25 +1516,62 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x5y1_avx2(
 /* integral of x^4 y^2; scheme even-power.
  * Cost per item: 23 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x4y2_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d t2 = _mm256_mul_pd(a, a);
+			const __m256d t3 = _mm256_mul_pd(t2, t2);
+			const __m256d t4 = _mm256_mul_pd(a, e);
+			const __m256d t5 = _mm256_mul_pd(t4, t4);
+			const __m256d t6 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t5, t3);
+			const __m256d t7 = _mm256_mul_pd(e, e);
+			const __m256d t8 = _mm256_mul_pd(t7, t7);
+			const __m256d t9 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t8, t6);
+			const __m256d t10 = _mm256_mul_pd(b, b);
+			const __m256d t11 = _mm256_mul_pd(t9, t10);
+			const __m256d t12 = _mm256_mul_pd(_mm256_set1_pd(0x1.5555555555555p1 /* 8/3 */), t2);
+			const __m256d t13 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap0 /* 8/5 */), t7, t12);
+			const __m256d t14 = _mm256_mul_pd(b, f);
+			const __m256d t15 = _mm256_mul_pd(t4, t14);
+			const __m256d t16 = _mm256_fmadd_pd(t13, t15, t11);
+			const __m256d t17 = _mm256_mul_pd(_mm256_set1_pd(0x1.5555555555555p-2 /* 1/3 */), t3);
+			const __m256d t18 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p0 /* 6/5 */), t5, t17);
+			const __m256d t19 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.2492492492492p-3 /* 1/7 */), t8, t18);
+			const __m256d t20 = _mm256_mul_pd(f, f);
+			const __m256d t21 = _mm256_fmadd_pd(t19, t20, t16);
+			acc0 = _mm256_fmadd_pd(s, t21, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -1044,25 +1609,64 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x4y2_avx2(
 /* integral of x^3 y^3; scheme even-power.
  * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x3y3_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d t2 = _mm256_mul_pd(b, b);
+			const __m256d t3 = _mm256_mul_pd(_mm256_set1_pd(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t2);
+			const __m256d t4 = _mm256_mul_pd(f, f);
+			const __m256d t5 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t4, t3);
+			const __m256d t6 = _mm256_mul_pd(a, a);
+			const __m256d t7 = _mm256_mul_pd(a, t6);
+			const __m256d t8 = _mm256_mul_pd(b, t7);
+			const __m256d t9 = _mm256_mul_pd(t5, t8);
+			const __m256d t10 = _mm256_fmadd_pd(_mm256_set1_pd(5.0), t2, t4);
+			const __m256d t11 = _mm256_mul_pd(a, e);
+			const __m256d t12 = _mm256_mul_pd(a, t11);
+			const __m256d t13 = _mm256_mul_pd(f, t12);
+			const __m256d t14 = _mm256_fmadd_pd(t10, t13, t9);
+			const __m256d t15 = _mm256_fmadd_pd(_mm256_set1_pd(3.0), t4, t3);
+			const __m256d t16 = _mm256_mul_pd(e, t11);
+			const __m256d t17 = _mm256_mul_pd(b, t16);
+			const __m256d t18 = _mm256_fmadd_pd(t15, t17, t14);
+			const __m256d t19 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.e79e79e79e79ep-3 /* 5/21 */), t4, t2);
+			const __m256d t20 = _mm256_mul_pd(e, e);
+			const __m256d t21 = _mm256_mul_pd(e, t20);
+			const __m256d t22 = _mm256_mul_pd(f, t21);
+			const __m256d t23 = _mm256_fmadd_pd(t19, t22, t18);
+			acc0 = _mm256_fmadd_pd(s, t23, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -1102,25 +1706,62 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x3y3_avx2(
 /* integral of x^2 y^4; scheme even-power.
  * Cost per item: 23 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x2y4_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d t2 = _mm256_mul_pd(b, b);
+			const __m256d t3 = _mm256_mul_pd(t2, t2);
+			const __m256d t4 = _mm256_mul_pd(b, f);
+			const __m256d t5 = _mm256_mul_pd(t4, t4);
+			const __m256d t6 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t5, t3);
+			const __m256d t7 = _mm256_mul_pd(f, f);
+			const __m256d t8 = _mm256_mul_pd(t7, t7);
+			const __m256d t9 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t8, t6);
+			const __m256d t10 = _mm256_mul_pd(a, a);
+			const __m256d t11 = _mm256_mul_pd(t9, t10);
+			const __m256d t12 = _mm256_mul_pd(_mm256_set1_pd(0x1.5555555555555p1 /* 8/3 */), t2);
+			const __m256d t13 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap0 /* 8/5 */), t7, t12);
+			const __m256d t14 = _mm256_mul_pd(a, e);
+			const __m256d t15 = _mm256_mul_pd(t4, t14);
+			const __m256d t16 = _mm256_fmadd_pd(t13, t15, t11);
+			const __m256d t17 = _mm256_mul_pd(_mm256_set1_pd(0x1.5555555555555p-2 /* 1/3 */), t3);
+			const __m256d t18 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p0 /* 6/5 */), t5, t17);
+			const __m256d t19 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.2492492492492p-3 /* 1/7 */), t8, t18);
+			const __m256d t20 = _mm256_mul_pd(e, e);
+			const __m256d t21 = _mm256_fmadd_pd(t19, t20, t16);
+			acc0 = _mm256_fmadd_pd(s, t21, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -1158,25 +1799,57 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x2y4_avx2(
 /* integral of x^1 y^5; scheme even-power.
  * Cost per item: 17 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 8. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x1y5_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d t0 = _mm256_mul_pd(b, f);
+			const __m256d t1 = _mm256_mul_pd(t0, t0);
+			const __m256d t2 = _mm256_mul_pd(b, b);
+			const __m256d t3 = _mm256_mul_pd(t2, t2);
+			const __m256d t4 = _mm256_mul_pd(_mm256_set1_pd(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t3);
+			const __m256d t5 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t1, t4);
+			const __m256d t6 = _mm256_mul_pd(f, f);
+			const __m256d t7 = _mm256_mul_pd(t6, t6);
+			const __m256d t8 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.2492492492492p-3 /* 1/7 */), t7, t5);
+			const __m256d t9 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.aaaaaaaaaaaabp1 /* 10/3 */), t1, t3);
+			const __m256d t10 = _mm256_add_pd(t9, t7);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d t11 = _mm256_mul_pd(a, b);
+			const __m256d t12 = _mm256_mul_pd(t10, t11);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d t13 = _mm256_mul_pd(e, f);
+			const __m256d t14 = _mm256_fmadd_pd(t8, t13, t12);
+			const __m256d t15 = _mm256_mul_pd(x0, y1);
+			const __m256d t16 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t15, t16);
+			acc0 = _mm256_fmadd_pd(s, t14, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d b = _mm256_add_pd(y0, y1);
 			const __m256d f = _mm256_sub_pd(y1, y0);
@@ -1209,25 +1882,49 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x1y5_avx2(
 /* integral of x^0 y^6; scheme horner.
  * Cost per item: 13 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 8. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y6_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_add_pd(y0, y1);
+			const __m256d t3 = _mm256_mul_pd(y1, y1);
+			const __m256d t4 = _mm256_fmadd_pd(t2, y0, t3);
+			const __m256d t5 = _mm256_mul_pd(t3, y1);
+			const __m256d t6 = _mm256_fmadd_pd(t4, y0, t5);
+			const __m256d t7 = _mm256_mul_pd(t5, y1);
+			const __m256d t8 = _mm256_fmadd_pd(t6, y0, t7);
+			const __m256d t9 = _mm256_mul_pd(t7, y1);
+			const __m256d t10 = _mm256_fmadd_pd(t8, y0, t9);
+			const __m256d t11 = _mm256_mul_pd(t10, y0);
+			const __m256d t12 = _mm256_fmadd_pd(t9, y1, t11);
+			acc0 = _mm256_fmadd_pd(s, t12, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -1252,25 +1949,51 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y6_avx2(
 /* integral of x^7 y^0; scheme horner.
  * Cost per item: 15 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 9. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x7y0_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_add_pd(x0, x1);
+			const __m256d t3 = _mm256_mul_pd(x1, x1);
+			const __m256d t4 = _mm256_fmadd_pd(t2, x0, t3);
+			const __m256d t5 = _mm256_mul_pd(t3, x1);
+			const __m256d t6 = _mm256_fmadd_pd(t4, x0, t5);
+			const __m256d t7 = _mm256_mul_pd(t5, x1);
+			const __m256d t8 = _mm256_fmadd_pd(t6, x0, t7);
+			const __m256d t9 = _mm256_mul_pd(t7, x1);
+			const __m256d t10 = _mm256_fmadd_pd(t8, x0, t9);
+			const __m256d t11 = _mm256_mul_pd(t9, x1);
+			const __m256d t12 = _mm256_fmadd_pd(t10, x0, t11);
+			const __m256d t13 = _mm256_mul_pd(t12, x0);
+			const __m256d t14 = _mm256_fmadd_pd(t11, x1, t13);
+			acc0 = _mm256_fmadd_pd(s, t14, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -1297,25 +2020,69 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x7y0_avx2(
 /* integral of x^6 y^1; scheme matrix.
  * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x6y1_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, x0);
+			const __m256d t1 = _mm256_mul_pd(t0, t0);
+			const __m256d t2 = _mm256_mul_pd(x0, x1);
+			const __m256d t3 = _mm256_mul_pd(t2, t1);
+			const __m256d t4 = _mm256_mul_pd(t0, x0);
+			const __m256d t5 = _mm256_mul_pd(t4, t4);
+			const __m256d t6 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t3, t5);
+			const __m256d t7 = _mm256_mul_pd(t2, t2);
+			const __m256d t8 = _mm256_mul_pd(t0, t7);
+			const __m256d t9 = _mm256_fmadd_pd(_mm256_set1_pd(3.0), t8, t6);
+			const __m256d t10 = _mm256_mul_pd(t2, t7);
+			const __m256d t11 = _mm256_mul_pd(_mm256_set1_pd(4.0), t10);
+			const __m256d t12 = _mm256_add_pd(t11, t9);
+			const __m256d t13 = _mm256_mul_pd(x1, x1);
+			const __m256d t14 = _mm256_mul_pd(t7, t13);
+			const __m256d t15 = _mm256_fmadd_pd(_mm256_set1_pd(5.0), t14, t12);
+			const __m256d t16 = _mm256_mul_pd(t13, t13);
+			const __m256d t17 = _mm256_mul_pd(t2, t16);
+			const __m256d t18 = _mm256_fmadd_pd(_mm256_set1_pd(6.0), t17, t15);
+			const __m256d t19 = _mm256_mul_pd(t13, x1);
+			const __m256d t20 = _mm256_mul_pd(t19, t19);
+			const __m256d t21 = _mm256_fmadd_pd(_mm256_set1_pd(7.0), t20, t18);
+			const __m256d t22 = _mm256_mul_pd(_mm256_set1_pd(7.0), t5);
+			const __m256d t23 = _mm256_fmadd_pd(_mm256_set1_pd(6.0), t3, t22);
+			const __m256d t24 = _mm256_fmadd_pd(_mm256_set1_pd(5.0), t8, t23);
+			const __m256d t25 = _mm256_add_pd(t24, t11);
+			const __m256d t26 = _mm256_fmadd_pd(_mm256_set1_pd(3.0), t14, t25);
+			const __m256d t27 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t17, t26);
+			const __m256d t28 = _mm256_add_pd(t27, t20);
+			const __m256d t29 = _mm256_mul_pd(t28, y0);
+			const __m256d t30 = _mm256_fmadd_pd(t21, y1, t29);
+			const __m256d t31 = _mm256_mul_pd(x0, y1);
+			const __m256d t32 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t31, t32);
+			acc0 = _mm256_fmadd_pd(s, t30, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, x0);
 			const __m256d t1 = _mm256_mul_pd(t0, t0);
@@ -1360,25 +2127,73 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x6y1_avx2(
 /* integral of x^5 y^2; scheme matrix.
  * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x5y2_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_mul_pd(x0, x0);
+			const __m256d t3 = _mm256_mul_pd(t2, x0);
+			const __m256d t4 = _mm256_mul_pd(t2, t3);
+			const __m256d t5 = _mm256_mul_pd(_mm256_set1_pd(3.5), t4);
+			const __m256d t6 = _mm256_mul_pd(x0, x1);
+			const __m256d t7 = _mm256_mul_pd(t3, t6);
+			const __m256d t8 = _mm256_fmadd_pd(_mm256_set1_pd(2.5), t7, t5);
+			const __m256d t9 = _mm256_mul_pd(t6, t6);
+			const __m256d t10 = _mm256_mul_pd(t9, x0);
+			const __m256d t11 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t10, t8);
+			const __m256d t12 = _mm256_mul_pd(t9, x1);
+			const __m256d t13 = _mm256_add_pd(t11, t12);
+			const __m256d t14 = _mm256_mul_pd(x1, x1);
+			const __m256d t15 = _mm256_mul_pd(t14, x1);
+			const __m256d t16 = _mm256_mul_pd(t6, t15);
+			const __m256d t17 = _mm256_fmadd_pd(_mm256_set1_pd(0.5), t16, t13);
+			const __m256d t18 = _mm256_mul_pd(t14, t15);
+			const __m256d t19 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.5555555555555p-3 /* 1/6 */), t18, t17);
+			const __m256d t20 = _mm256_mul_pd(y0, y0);
+			const __m256d t21 = _mm256_mul_pd(t19, t20);
+			const __m256d t22 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t7, t4);
+			const __m256d t23 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t10, t22);
+			const __m256d t24 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t12, t23);
+			const __m256d t25 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t16, t24);
+			const __m256d t26 = _mm256_add_pd(t18, t25);
+			const __m256d t27 = _mm256_mul_pd(y0, y1);
+			const __m256d t28 = _mm256_fmadd_pd(t26, t27, t21);
+			const __m256d t29 = _mm256_mul_pd(_mm256_set1_pd(0x1.5555555555555p-3 /* 1/6 */), t4);
+			const __m256d t30 = _mm256_fmadd_pd(_mm256_set1_pd(0.5), t7, t29);
+			const __m256d t31 = _mm256_add_pd(t10, t30);
+			const __m256d t32 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t12, t31);
+			const __m256d t33 = _mm256_fmadd_pd(_mm256_set1_pd(2.5), t16, t32);
+			const __m256d t34 = _mm256_fmadd_pd(_mm256_set1_pd(3.5), t18, t33);
+			const __m256d t35 = _mm256_mul_pd(y1, y1);
+			const __m256d t36 = _mm256_fmadd_pd(t34, t35, t28);
+			acc0 = _mm256_fmadd_pd(s, t36, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -1427,25 +2242,77 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x5y2_avx2(
 /* integral of x^4 y^3; scheme matrix.
  * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x4y3_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_mul_pd(x0, x0);
+			const __m256d t3 = _mm256_mul_pd(t2, t2);
+			const __m256d t4 = _mm256_mul_pd(x0, x1);
+			const __m256d t5 = _mm256_mul_pd(t2, t4);
+			const __m256d t6 = _mm256_fmadd_pd(_mm256_set1_pd(1.75), t3, t5);
+			const __m256d t7 = _mm256_mul_pd(t4, t4);
+			const __m256d t8 = _mm256_mul_pd(_mm256_set1_pd(0.5), t7);
+			const __m256d t9 = _mm256_add_pd(t6, t8);
+			const __m256d t10 = _mm256_mul_pd(x1, x1);
+			const __m256d t11 = _mm256_mul_pd(t4, t10);
+			const __m256d t12 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t11, t9);
+			const __m256d t13 = _mm256_mul_pd(t10, t10);
+			const __m256d t14 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-5 /* 1/20 */), t13, t12);
+			const __m256d t15 = _mm256_mul_pd(y0, y0);
+			const __m256d t16 = _mm256_mul_pd(t15, y0);
+			const __m256d t17 = _mm256_mul_pd(t14, t16);
+			const __m256d t18 = _mm256_fmadd_pd(_mm256_set1_pd(0.75), t3, t5);
+			const __m256d t19 = _mm256_mul_pd(_mm256_set1_pd(0x1.ccccccccccccdp-1 /* 9/10 */), t7);
+			const __m256d t20 = _mm256_add_pd(t18, t19);
+			const __m256d t21 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p-1 /* 3/5 */), t11, t20);
+			const __m256d t22 = _mm256_fmadd_pd(_mm256_set1_pd(0.25), t13, t21);
+			const __m256d t23 = _mm256_mul_pd(y0, y1);
+			const __m256d t24 = _mm256_mul_pd(t23, y0);
+			const __m256d t25 = _mm256_fmadd_pd(t22, t24, t17);
+			const __m256d t26 = _mm256_mul_pd(_mm256_set1_pd(0.25), t3);
+			const __m256d t27 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p-1 /* 3/5 */), t5, t26);
+			const __m256d t28 = _mm256_add_pd(t19, t27);
+			const __m256d t29 = _mm256_add_pd(t11, t28);
+			const __m256d t30 = _mm256_fmadd_pd(_mm256_set1_pd(0.75), t13, t29);
+			const __m256d t31 = _mm256_mul_pd(t23, y1);
+			const __m256d t32 = _mm256_fmadd_pd(t30, t31, t25);
+			const __m256d t33 = _mm256_mul_pd(_mm256_set1_pd(0x1.999999999999ap-5 /* 1/20 */), t3);
+			const __m256d t34 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t5, t33);
+			const __m256d t35 = _mm256_add_pd(t8, t34);
+			const __m256d t36 = _mm256_add_pd(t11, t35);
+			const __m256d t37 = _mm256_fmadd_pd(_mm256_set1_pd(1.75), t13, t36);
+			const __m256d t38 = _mm256_mul_pd(y1, y1);
+			const __m256d t39 = _mm256_mul_pd(t38, y1);
+			const __m256d t40 = _mm256_fmadd_pd(t37, t39, t32);
+			acc0 = _mm256_fmadd_pd(s, t40, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -1498,25 +2365,77 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x4y3_avx2(
 /* integral of x^3 y^4; scheme matrix.
  * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x3y4_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_mul_pd(y0, y0);
+			const __m256d t3 = _mm256_mul_pd(t2, t2);
+			const __m256d t4 = _mm256_mul_pd(y0, y1);
+			const __m256d t5 = _mm256_mul_pd(t2, t4);
+			const __m256d t6 = _mm256_fmadd_pd(_mm256_set1_pd(1.75), t3, t5);
+			const __m256d t7 = _mm256_mul_pd(t4, t4);
+			const __m256d t8 = _mm256_mul_pd(_mm256_set1_pd(0.5), t7);
+			const __m256d t9 = _mm256_add_pd(t6, t8);
+			const __m256d t10 = _mm256_mul_pd(y1, y1);
+			const __m256d t11 = _mm256_mul_pd(t4, t10);
+			const __m256d t12 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t11, t9);
+			const __m256d t13 = _mm256_mul_pd(t10, t10);
+			const __m256d t14 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-5 /* 1/20 */), t13, t12);
+			const __m256d t15 = _mm256_mul_pd(x0, x0);
+			const __m256d t16 = _mm256_mul_pd(t15, x0);
+			const __m256d t17 = _mm256_mul_pd(t14, t16);
+			const __m256d t18 = _mm256_fmadd_pd(_mm256_set1_pd(0.75), t3, t5);
+			const __m256d t19 = _mm256_mul_pd(_mm256_set1_pd(0x1.ccccccccccccdp-1 /* 9/10 */), t7);
+			const __m256d t20 = _mm256_add_pd(t18, t19);
+			const __m256d t21 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p-1 /* 3/5 */), t11, t20);
+			const __m256d t22 = _mm256_fmadd_pd(_mm256_set1_pd(0.25), t13, t21);
+			const __m256d t23 = _mm256_mul_pd(x0, x1);
+			const __m256d t24 = _mm256_mul_pd(t23, x0);
+			const __m256d t25 = _mm256_fmadd_pd(t22, t24, t17);
+			const __m256d t26 = _mm256_mul_pd(_mm256_set1_pd(0.25), t3);
+			const __m256d t27 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p-1 /* 3/5 */), t5, t26);
+			const __m256d t28 = _mm256_add_pd(t19, t27);
+			const __m256d t29 = _mm256_add_pd(t11, t28);
+			const __m256d t30 = _mm256_fmadd_pd(_mm256_set1_pd(0.75), t13, t29);
+			const __m256d t31 = _mm256_mul_pd(t23, x1);
+			const __m256d t32 = _mm256_fmadd_pd(t30, t31, t25);
+			const __m256d t33 = _mm256_mul_pd(_mm256_set1_pd(0x1.999999999999ap-5 /* 1/20 */), t3);
+			const __m256d t34 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t5, t33);
+			const __m256d t35 = _mm256_add_pd(t8, t34);
+			const __m256d t36 = _mm256_add_pd(t11, t35);
+			const __m256d t37 = _mm256_fmadd_pd(_mm256_set1_pd(1.75), t13, t36);
+			const __m256d t38 = _mm256_mul_pd(x1, x1);
+			const __m256d t39 = _mm256_mul_pd(t38, x1);
+			const __m256d t40 = _mm256_fmadd_pd(t37, t39, t32);
+			acc0 = _mm256_fmadd_pd(s, t40, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -1569,25 +2488,73 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x3y4_avx2(
 /* integral of x^2 y^5; scheme matrix.
  * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x2y5_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			const __m256d t2 = _mm256_mul_pd(y0, y0);
+			const __m256d t3 = _mm256_mul_pd(t2, y0);
+			const __m256d t4 = _mm256_mul_pd(t2, t3);
+			const __m256d t5 = _mm256_mul_pd(_mm256_set1_pd(0x1.0cccccccccccdp1 /* 21/10 */), t4);
+			const __m256d t6 = _mm256_mul_pd(y0, y1);
+			const __m256d t7 = _mm256_mul_pd(t3, t6);
+			const __m256d t8 = _mm256_fmadd_pd(_mm256_set1_pd(1.5), t7, t5);
+			const __m256d t9 = _mm256_mul_pd(t6, t6);
+			const __m256d t10 = _mm256_mul_pd(t9, y0);
+			const __m256d t11 = _mm256_add_pd(t8, t10);
+			const __m256d t12 = _mm256_mul_pd(t9, y1);
+			const __m256d t13 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p-1 /* 3/5 */), t12, t11);
+			const __m256d t14 = _mm256_mul_pd(y1, y1);
+			const __m256d t15 = _mm256_mul_pd(t14, y1);
+			const __m256d t16 = _mm256_mul_pd(t6, t15);
+			const __m256d t17 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p-2 /* 3/10 */), t16, t13);
+			const __m256d t18 = _mm256_mul_pd(t14, t15);
+			const __m256d t19 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-4 /* 1/10 */), t18, t17);
+			const __m256d t20 = _mm256_mul_pd(x0, x0);
+			const __m256d t21 = _mm256_mul_pd(t19, t20);
+			const __m256d t22 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p-1 /* 3/5 */), t4, t7);
+			const __m256d t23 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p0 /* 6/5 */), t10, t22);
+			const __m256d t24 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p0 /* 6/5 */), t12, t23);
+			const __m256d t25 = _mm256_add_pd(t16, t24);
+			const __m256d t26 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p-1 /* 3/5 */), t18, t25);
+			const __m256d t27 = _mm256_mul_pd(x0, x1);
+			const __m256d t28 = _mm256_fmadd_pd(t26, t27, t21);
+			const __m256d t29 = _mm256_mul_pd(_mm256_set1_pd(0x1.999999999999ap-4 /* 1/10 */), t4);
+			const __m256d t30 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p-2 /* 3/10 */), t7, t29);
+			const __m256d t31 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.3333333333333p-1 /* 3/5 */), t10, t30);
+			const __m256d t32 = _mm256_add_pd(t12, t31);
+			const __m256d t33 = _mm256_fmadd_pd(_mm256_set1_pd(1.5), t16, t32);
+			const __m256d t34 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.0cccccccccccdp1 /* 21/10 */), t18, t33);
+			const __m256d t35 = _mm256_mul_pd(x1, x1);
+			const __m256d t36 = _mm256_fmadd_pd(t34, t35, t28);
+			acc0 = _mm256_fmadd_pd(s, t36, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -1636,25 +2603,69 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x2y5_avx2(
 /* integral of x^1 y^6; scheme matrix.
  * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x1y6_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(y0, y0);
+			const __m256d t1 = _mm256_mul_pd(t0, t0);
+			const __m256d t2 = _mm256_mul_pd(y0, y1);
+			const __m256d t3 = _mm256_mul_pd(t2, t1);
+			const __m256d t4 = _mm256_mul_pd(t0, y0);
+			const __m256d t5 = _mm256_mul_pd(t4, t4);
+			const __m256d t6 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t3, t5);
+			const __m256d t7 = _mm256_mul_pd(t2, t2);
+			const __m256d t8 = _mm256_mul_pd(t0, t7);
+			const __m256d t9 = _mm256_fmadd_pd(_mm256_set1_pd(3.0), t8, t6);
+			const __m256d t10 = _mm256_mul_pd(t2, t7);
+			const __m256d t11 = _mm256_mul_pd(_mm256_set1_pd(4.0), t10);
+			const __m256d t12 = _mm256_add_pd(t11, t9);
+			const __m256d t13 = _mm256_mul_pd(y1, y1);
+			const __m256d t14 = _mm256_mul_pd(t7, t13);
+			const __m256d t15 = _mm256_fmadd_pd(_mm256_set1_pd(5.0), t14, t12);
+			const __m256d t16 = _mm256_mul_pd(t13, t13);
+			const __m256d t17 = _mm256_mul_pd(t2, t16);
+			const __m256d t18 = _mm256_fmadd_pd(_mm256_set1_pd(6.0), t17, t15);
+			const __m256d t19 = _mm256_mul_pd(t13, y1);
+			const __m256d t20 = _mm256_mul_pd(t19, t19);
+			const __m256d t21 = _mm256_fmadd_pd(_mm256_set1_pd(7.0), t20, t18);
+			const __m256d t22 = _mm256_mul_pd(_mm256_set1_pd(7.0), t5);
+			const __m256d t23 = _mm256_fmadd_pd(_mm256_set1_pd(6.0), t3, t22);
+			const __m256d t24 = _mm256_fmadd_pd(_mm256_set1_pd(5.0), t8, t23);
+			const __m256d t25 = _mm256_add_pd(t24, t11);
+			const __m256d t26 = _mm256_fmadd_pd(_mm256_set1_pd(3.0), t14, t25);
+			const __m256d t27 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t17, t26);
+			const __m256d t28 = _mm256_add_pd(t27, t20);
+			const __m256d t29 = _mm256_mul_pd(t28, x0);
+			const __m256d t30 = _mm256_fmadd_pd(t21, x1, t29);
+			const __m256d t31 = _mm256_mul_pd(x0, y1);
+			const __m256d t32 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t31, t32);
+			acc0 = _mm256_fmadd_pd(s, t30, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(y0, y0);
 			const __m256d t1 = _mm256_mul_pd(t0, t0);
@@ -1699,26 +2710,22 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x1y6_avx2(
 /* integral of x^0 y^7; scheme horner.
  * Cost per item: 15 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 9. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y7_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
-			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
-			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const __m256d y1 = _mm256_loadu_pd(at_y1);
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
 			const __m256d s = _mm256_sub_pd(t0, t1);
@@ -1737,600 +2744,17 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y7_avx2(
 			const __m256d t14 = _mm256_fmadd_pd(t11, y1, t13);
 			acc0 = _mm256_fmadd_pd(s, t14, acc0);
 		}
-		_mm256_storeu_pd(sum + pass, acc0);
-	}
-}
-
-/* integral of x^8 y^0; scheme horner.
- * Cost per item: 17 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 10. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x8y0_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
-		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const __m256d y1 = _mm256_loadu_pd(at_y1);
-			const __m256d t0 = _mm256_mul_pd(x0, y1);
-			const __m256d t1 = _mm256_mul_pd(x1, y0);
-			const __m256d s = _mm256_sub_pd(t0, t1);
-			const __m256d t2 = _mm256_add_pd(x0, x1);
-			const __m256d t3 = _mm256_mul_pd(x1, x1);
-			const __m256d t4 = _mm256_fmadd_pd(t2, x0, t3);
-			const __m256d t5 = _mm256_mul_pd(t3, x1);
-			const __m256d t6 = _mm256_fmadd_pd(t4, x0, t5);
-			const __m256d t7 = _mm256_mul_pd(t5, x1);
-			const __m256d t8 = _mm256_fmadd_pd(t6, x0, t7);
-			const __m256d t9 = _mm256_mul_pd(t7, x1);
-			const __m256d t10 = _mm256_fmadd_pd(t8, x0, t9);
-			const __m256d t11 = _mm256_mul_pd(t9, x1);
-			const __m256d t12 = _mm256_fmadd_pd(t10, x0, t11);
-			const __m256d t13 = _mm256_mul_pd(t11, x1);
-			const __m256d t14 = _mm256_fmadd_pd(t12, x0, t13);
-			const __m256d t15 = _mm256_mul_pd(t14, x0);
-			const __m256d t16 = _mm256_fmadd_pd(t13, x1, t15);
-			acc0 = _mm256_fmadd_pd(s, t16, acc0);
-		}
-		_mm256_storeu_pd(sum + pass, acc0);
-	}
-}
-
-/* integral of x^7 y^1; scheme matrix.
- * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x7y1_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
-		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
-			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
-			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const __m256d y1 = _mm256_loadu_pd(at_y1);
-			const __m256d t0 = _mm256_mul_pd(x0, x0);
-			const __m256d t1 = _mm256_mul_pd(t0, x0);
-			const __m256d t2 = _mm256_mul_pd(t0, t1);
-			const __m256d t3 = _mm256_mul_pd(x0, x1);
-			const __m256d t4 = _mm256_mul_pd(t3, t2);
-			const __m256d t5 = _mm256_mul_pd(t0, t0);
-			const __m256d t6 = _mm256_mul_pd(t1, t5);
-			const __m256d t7 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t4, t6);
-			const __m256d t8 = _mm256_mul_pd(t3, t3);
-			const __m256d t9 = _mm256_mul_pd(t1, t8);
-			const __m256d t10 = _mm256_fmadd_pd(_mm256_set1_pd(3.0), t9, t7);
-			const __m256d t11 = _mm256_mul_pd(t3, t8);
-			const __m256d t12 = _mm256_mul_pd(t11, x0);
-			const __m256d t13 = _mm256_fmadd_pd(_mm256_set1_pd(4.0), t12, t10);
-			const __m256d t14 = _mm256_mul_pd(t11, x1);
-			const __m256d t15 = _mm256_fmadd_pd(_mm256_set1_pd(5.0), t14, t13);
-			const __m256d t16 = _mm256_mul_pd(x1, x1);
-			const __m256d t17 = _mm256_mul_pd(t16, x1);
-			const __m256d t18 = _mm256_mul_pd(t8, t17);
-			const __m256d t19 = _mm256_fmadd_pd(_mm256_set1_pd(6.0), t18, t15);
-			const __m256d t20 = _mm256_mul_pd(t16, t17);
-			const __m256d t21 = _mm256_mul_pd(t3, t20);
-			const __m256d t22 = _mm256_fmadd_pd(_mm256_set1_pd(7.0), t21, t19);
-			const __m256d t23 = _mm256_mul_pd(t16, t16);
-			const __m256d t24 = _mm256_mul_pd(t17, t23);
-			const __m256d t25 = _mm256_fmadd_pd(_mm256_set1_pd(8.0), t24, t22);
-			const __m256d t26 = _mm256_mul_pd(_mm256_set1_pd(8.0), t6);
-			const __m256d t27 = _mm256_fmadd_pd(_mm256_set1_pd(7.0), t4, t26);
-			const __m256d t28 = _mm256_fmadd_pd(_mm256_set1_pd(6.0), t9, t27);
-			const __m256d t29 = _mm256_fmadd_pd(_mm256_set1_pd(5.0), t12, t28);
-			const __m256d t30 = _mm256_fmadd_pd(_mm256_set1_pd(4.0), t14, t29);
-			const __m256d t31 = _mm256_fmadd_pd(_mm256_set1_pd(3.0), t18, t30);
-			const __m256d t32 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t21, t31);
-			const __m256d t33 = _mm256_add_pd(t32, t24);
-			const __m256d t34 = _mm256_mul_pd(t33, y0);
-			const __m256d t35 = _mm256_fmadd_pd(t25, y1, t34);
-			const __m256d t36 = _mm256_mul_pd(x0, y1);
-			const __m256d t37 = _mm256_mul_pd(x1, y0);
-			const __m256d s = _mm256_sub_pd(t36, t37);
-			acc0 = _mm256_fmadd_pd(s, t35, acc0);
-		}
-		_mm256_storeu_pd(sum + pass, acc0);
-	}
-}
-
-/* integral of x^6 y^2; scheme matrix.
- * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x6y2_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
-		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
-			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
-			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const __m256d y1 = _mm256_loadu_pd(at_y1);
-			const __m256d t0 = _mm256_mul_pd(x0, x0);
-			const __m256d t1 = _mm256_mul_pd(t0, t0);
-			const __m256d t2 = _mm256_mul_pd(x0, x1);
-			const __m256d t3 = _mm256_mul_pd(t2, t1);
-			const __m256d t4 = _mm256_mul_pd(t0, x0);
-			const __m256d t5 = _mm256_mul_pd(t4, t4);
-			const __m256d t6 = _mm256_mul_pd(_mm256_set1_pd(0x1.ddddddddddddep-2 /* 7/15 */), t5);
-			const __m256d t7 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-1 /* 4/5 */), t3, t6);
-			const __m256d t8 = _mm256_mul_pd(t2, t2);
-			const __m256d t9 = _mm256_mul_pd(t0, t8);
-			const __m256d t10 = _mm256_add_pd(t9, t7);
-			const __m256d t11 = _mm256_mul_pd(t2, t8);
-			const __m256d t12 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.1111111111111p0 /* 16/15 */), t11, t10);
-			const __m256d t13 = _mm256_mul_pd(x1, x1);
-			const __m256d t14 = _mm256_mul_pd(t8, t13);
-			const __m256d t15 = _mm256_add_pd(t14, t12);
-			const __m256d t16 = _mm256_mul_pd(t13, t13);
-			const __m256d t17 = _mm256_mul_pd(t2, t16);
-			const __m256d t18 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-1 /* 4/5 */), t17, t15);
-			const __m256d t19 = _mm256_mul_pd(t13, x1);
-			const __m256d t20 = _mm256_mul_pd(t19, t19);
-			const __m256d t21 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.ddddddddddddep-2 /* 7/15 */), t20, t18);
-			const __m256d t22 = _mm256_mul_pd(_mm256_set1_pd(0x1.ddddddddddddep0 /* 28/15 */), t5);
-			const __m256d t23 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.6666666666666p0 /* 7/5 */), t3, t22);
-			const __m256d t24 = _mm256_add_pd(t23, t9);
-			const __m256d t25 = _mm256_mul_pd(_mm256_set1_pd(0x1.5555555555555p-1 /* 2/3 */), t11);
-			const __m256d t26 = _mm256_add_pd(t24, t25);
-			const __m256d t27 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-2 /* 2/5 */), t14, t26);
-			const __m256d t28 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t17, t27);
-			const __m256d t29 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.1111111111111p-4 /* 1/15 */), t20, t28);
-			const __m256d t30 = _mm256_mul_pd(y0, y0);
-			const __m256d t31 = _mm256_mul_pd(t29, t30);
-			const __m256d t32 = _mm256_mul_pd(y0, y1);
-			const __m256d t33 = _mm256_fmadd_pd(t21, t32, t31);
-			const __m256d t34 = _mm256_mul_pd(_mm256_set1_pd(0x1.1111111111111p-4 /* 1/15 */), t5);
-			const __m256d t35 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t3, t34);
-			const __m256d t36 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-2 /* 2/5 */), t9, t35);
-			const __m256d t37 = _mm256_add_pd(t25, t36);
-			const __m256d t38 = _mm256_add_pd(t14, t37);
-			const __m256d t39 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.6666666666666p0 /* 7/5 */), t17, t38);
-			const __m256d t40 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.ddddddddddddep0 /* 28/15 */), t20, t39);
-			const __m256d t41 = _mm256_mul_pd(y1, y1);
-			const __m256d t42 = _mm256_fmadd_pd(t40, t41, t33);
-			const __m256d t43 = _mm256_mul_pd(x0, y1);
-			const __m256d t44 = _mm256_mul_pd(x1, y0);
-			const __m256d s = _mm256_sub_pd(t43, t44);
-			acc0 = _mm256_fmadd_pd(s, t42, acc0);
-		}
-		_mm256_storeu_pd(sum + pass, acc0);
-	}
-}
-
-/* integral of x^5 y^3; scheme matrix.
- * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x5y3_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
-		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
-			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
-			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const __m256d y1 = _mm256_loadu_pd(at_y1);
-			const __m256d t0 = _mm256_mul_pd(x0, y1);
-			const __m256d t1 = _mm256_mul_pd(x1, y0);
-			const __m256d s = _mm256_sub_pd(t0, t1);
-			const __m256d t2 = _mm256_mul_pd(x0, x0);
-			const __m256d t3 = _mm256_mul_pd(t2, x0);
-			const __m256d t4 = _mm256_mul_pd(t2, t3);
-			const __m256d t5 = _mm256_mul_pd(_mm256_set1_pd(0x1.ddddddddddddep0 /* 28/15 */), t4);
-			const __m256d t6 = _mm256_mul_pd(x0, x1);
-			const __m256d t7 = _mm256_mul_pd(t3, t6);
-			const __m256d t8 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.2aaaaaaaaaaabp0 /* 7/6 */), t7, t5);
-			const __m256d t9 = _mm256_mul_pd(t6, t6);
-			const __m256d t10 = _mm256_mul_pd(t9, x0);
-			const __m256d t11 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.5555555555555p-1 /* 2/3 */), t10, t8);
-			const __m256d t12 = _mm256_mul_pd(t9, x1);
-			const __m256d t13 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.5555555555555p-2 /* 1/3 */), t12, t11);
-			const __m256d t14 = _mm256_mul_pd(x1, x1);
-			const __m256d t15 = _mm256_mul_pd(t14, x1);
-			const __m256d t16 = _mm256_mul_pd(t6, t15);
-			const __m256d t17 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.1111111111111p-3 /* 2/15 */), t16, t13);
-			const __m256d t18 = _mm256_mul_pd(t14, t15);
-			const __m256d t19 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.1111111111111p-5 /* 1/30 */), t18, t17);
-			const __m256d t20 = _mm256_mul_pd(y0, y0);
-			const __m256d t21 = _mm256_mul_pd(t20, y0);
-			const __m256d t22 = _mm256_mul_pd(t19, t21);
-			const __m256d t23 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.6666666666666p-1 /* 7/10 */), t4, t7);
-			const __m256d t24 = _mm256_add_pd(t10, t23);
-			const __m256d t25 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-1 /* 4/5 */), t12, t24);
-			const __m256d t26 = _mm256_fmadd_pd(_mm256_set1_pd(0.5), t16, t25);
-			const __m256d t27 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t18, t26);
-			const __m256d t28 = _mm256_mul_pd(y0, y1);
-			const __m256d t29 = _mm256_mul_pd(t28, y0);
-			const __m256d t30 = _mm256_fmadd_pd(t27, t29, t22);
-			const __m256d t31 = _mm256_mul_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t4);
-			const __m256d t32 = _mm256_fmadd_pd(_mm256_set1_pd(0.5), t7, t31);
-			const __m256d t33 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-1 /* 4/5 */), t10, t32);
-			const __m256d t34 = _mm256_add_pd(t12, t33);
-			const __m256d t35 = _mm256_add_pd(t16, t34);
-			const __m256d t36 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.6666666666666p-1 /* 7/10 */), t18, t35);
-			const __m256d t37 = _mm256_mul_pd(t28, y1);
-			const __m256d t38 = _mm256_fmadd_pd(t36, t37, t30);
-			const __m256d t39 = _mm256_mul_pd(_mm256_set1_pd(0x1.1111111111111p-5 /* 1/30 */), t4);
-			const __m256d t40 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.1111111111111p-3 /* 2/15 */), t7, t39);
-			const __m256d t41 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.5555555555555p-2 /* 1/3 */), t10, t40);
-			const __m256d t42 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.5555555555555p-1 /* 2/3 */), t12, t41);
-			const __m256d t43 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.2aaaaaaaaaaabp0 /* 7/6 */), t16, t42);
-			const __m256d t44 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.ddddddddddddep0 /* 28/15 */), t18, t43);
-			const __m256d t45 = _mm256_mul_pd(y1, y1);
-			const __m256d t46 = _mm256_mul_pd(t45, y1);
-			const __m256d t47 = _mm256_fmadd_pd(t44, t46, t38);
-			acc0 = _mm256_fmadd_pd(s, t47, acc0);
-		}
-		_mm256_storeu_pd(sum + pass, acc0);
-	}
-}
-
-/* integral of x^4 y^4; scheme matrix.
- * Cost per item: 45 mul or fma, 6 add; 1 accumulators, 14 values alive, depth 13. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x4y4_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
-		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
-			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
-			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const __m256d y1 = _mm256_loadu_pd(at_y1);
-			const __m256d t0 = _mm256_mul_pd(x0, y1);
-			const __m256d t1 = _mm256_mul_pd(x1, y0);
-			const __m256d s = _mm256_sub_pd(t0, t1);
-			const __m256d t2 = _mm256_mul_pd(y0, y0);
-			const __m256d t3 = _mm256_mul_pd(t2, t2);
-			const __m256d t4 = _mm256_mul_pd(_mm256_set1_pd(70.0), t3);
-			const __m256d t5 = _mm256_mul_pd(y0, y1);
-			const __m256d t6 = _mm256_mul_pd(t2, t5);
-			const __m256d t7 = _mm256_fmadd_pd(_mm256_set1_pd(35.0), t6, t4);
-			const __m256d t8 = _mm256_mul_pd(t5, t5);
-			const __m256d t9 = _mm256_mul_pd(_mm256_set1_pd(15.0), t8);
-			const __m256d t10 = _mm256_add_pd(t7, t9);
-			const __m256d t11 = _mm256_mul_pd(y1, y1);
-			const __m256d t12 = _mm256_mul_pd(t5, t11);
-			const __m256d t13 = _mm256_fmadd_pd(_mm256_set1_pd(5.0), t12, t10);
-			const __m256d t14 = _mm256_mul_pd(t11, t11);
-			const __m256d t15 = _mm256_add_pd(t13, t14);
-			const __m256d t16 = _mm256_mul_pd(x0, x0);
-			const __m256d t17 = _mm256_mul_pd(t16, t16);
-			const __m256d t18 = _mm256_mul_pd(t15, t17);
-			const __m256d t19 = _mm256_mul_pd(_mm256_set1_pd(35.0), t3);
-			const __m256d t20 = _mm256_fmadd_pd(_mm256_set1_pd(40.0), t6, t19);
-			const __m256d t21 = _mm256_mul_pd(_mm256_set1_pd(30.0), t8);
-			const __m256d t22 = _mm256_add_pd(t20, t21);
-			const __m256d t23 = _mm256_fmadd_pd(_mm256_set1_pd(16.0), t12, t22);
-			const __m256d t24 = _mm256_fmadd_pd(_mm256_set1_pd(5.0), t14, t23);
-			const __m256d t25 = _mm256_mul_pd(x0, x1);
-			const __m256d t26 = _mm256_mul_pd(t16, t25);
-			const __m256d t27 = _mm256_fmadd_pd(t24, t26, t18);
-			const __m256d t28 = _mm256_mul_pd(_mm256_set1_pd(15.0), t3);
-			const __m256d t29 = _mm256_fmadd_pd(_mm256_set1_pd(30.0), t6, t28);
-			const __m256d t30 = _mm256_fmadd_pd(_mm256_set1_pd(36.0), t8, t29);
-			const __m256d t31 = _mm256_fmadd_pd(_mm256_set1_pd(30.0), t12, t30);
-			const __m256d t32 = _mm256_fmadd_pd(_mm256_set1_pd(15.0), t14, t31);
-			const __m256d t33 = _mm256_mul_pd(t25, t25);
-			const __m256d t34 = _mm256_fmadd_pd(t32, t33, t27);
-			const __m256d t35 = _mm256_mul_pd(_mm256_set1_pd(5.0), t3);
-			const __m256d t36 = _mm256_fmadd_pd(_mm256_set1_pd(16.0), t6, t35);
-			const __m256d t37 = _mm256_add_pd(t21, t36);
-			const __m256d t38 = _mm256_fmadd_pd(_mm256_set1_pd(40.0), t12, t37);
-			const __m256d t39 = _mm256_fmadd_pd(_mm256_set1_pd(35.0), t14, t38);
-			const __m256d t40 = _mm256_mul_pd(x1, x1);
-			const __m256d t41 = _mm256_mul_pd(t25, t40);
-			const __m256d t42 = _mm256_fmadd_pd(t39, t41, t34);
-			const __m256d t43 = _mm256_fmadd_pd(_mm256_set1_pd(5.0), t6, t3);
-			const __m256d t44 = _mm256_add_pd(t9, t43);
-			const __m256d t45 = _mm256_fmadd_pd(_mm256_set1_pd(35.0), t12, t44);
-			const __m256d t46 = _mm256_fmadd_pd(_mm256_set1_pd(70.0), t14, t45);
-			const __m256d t47 = _mm256_mul_pd(t40, t40);
-			const __m256d t48 = _mm256_fmadd_pd(t46, t47, t42);
-			acc0 = _mm256_fmadd_pd(s, t48, acc0);
-		}
-		_mm256_storeu_pd(sum + pass, acc0);
-	}
-}
-
-/* integral of x^3 y^5; scheme matrix.
- * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x3y5_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
-		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
-			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
-			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const __m256d y1 = _mm256_loadu_pd(at_y1);
-			const __m256d t0 = _mm256_mul_pd(x0, y1);
-			const __m256d t1 = _mm256_mul_pd(x1, y0);
-			const __m256d s = _mm256_sub_pd(t0, t1);
-			const __m256d t2 = _mm256_mul_pd(y0, y0);
-			const __m256d t3 = _mm256_mul_pd(t2, y0);
-			const __m256d t4 = _mm256_mul_pd(t2, t3);
-			const __m256d t5 = _mm256_mul_pd(_mm256_set1_pd(0x1.ddddddddddddep0 /* 28/15 */), t4);
-			const __m256d t6 = _mm256_mul_pd(y0, y1);
-			const __m256d t7 = _mm256_mul_pd(t3, t6);
-			const __m256d t8 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.2aaaaaaaaaaabp0 /* 7/6 */), t7, t5);
-			const __m256d t9 = _mm256_mul_pd(t6, t6);
-			const __m256d t10 = _mm256_mul_pd(t9, y0);
-			const __m256d t11 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.5555555555555p-1 /* 2/3 */), t10, t8);
-			const __m256d t12 = _mm256_mul_pd(t9, y1);
-			const __m256d t13 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.5555555555555p-2 /* 1/3 */), t12, t11);
-			const __m256d t14 = _mm256_mul_pd(y1, y1);
-			const __m256d t15 = _mm256_mul_pd(t14, y1);
-			const __m256d t16 = _mm256_mul_pd(t6, t15);
-			const __m256d t17 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.1111111111111p-3 /* 2/15 */), t16, t13);
-			const __m256d t18 = _mm256_mul_pd(t14, t15);
-			const __m256d t19 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.1111111111111p-5 /* 1/30 */), t18, t17);
-			const __m256d t20 = _mm256_mul_pd(x0, x0);
-			const __m256d t21 = _mm256_mul_pd(t20, x0);
-			const __m256d t22 = _mm256_mul_pd(t19, t21);
-			const __m256d t23 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.6666666666666p-1 /* 7/10 */), t4, t7);
-			const __m256d t24 = _mm256_add_pd(t10, t23);
-			const __m256d t25 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-1 /* 4/5 */), t12, t24);
-			const __m256d t26 = _mm256_fmadd_pd(_mm256_set1_pd(0.5), t16, t25);
-			const __m256d t27 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t18, t26);
-			const __m256d t28 = _mm256_mul_pd(x0, x1);
-			const __m256d t29 = _mm256_mul_pd(t28, x0);
-			const __m256d t30 = _mm256_fmadd_pd(t27, t29, t22);
-			const __m256d t31 = _mm256_mul_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t4);
-			const __m256d t32 = _mm256_fmadd_pd(_mm256_set1_pd(0.5), t7, t31);
-			const __m256d t33 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-1 /* 4/5 */), t10, t32);
-			const __m256d t34 = _mm256_add_pd(t12, t33);
-			const __m256d t35 = _mm256_add_pd(t16, t34);
-			const __m256d t36 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.6666666666666p-1 /* 7/10 */), t18, t35);
-			const __m256d t37 = _mm256_mul_pd(t28, x1);
-			const __m256d t38 = _mm256_fmadd_pd(t36, t37, t30);
-			const __m256d t39 = _mm256_mul_pd(_mm256_set1_pd(0x1.1111111111111p-5 /* 1/30 */), t4);
-			const __m256d t40 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.1111111111111p-3 /* 2/15 */), t7, t39);
-			const __m256d t41 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.5555555555555p-2 /* 1/3 */), t10, t40);
-			const __m256d t42 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.5555555555555p-1 /* 2/3 */), t12, t41);
-			const __m256d t43 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.2aaaaaaaaaaabp0 /* 7/6 */), t16, t42);
-			const __m256d t44 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.ddddddddddddep0 /* 28/15 */), t18, t43);
-			const __m256d t45 = _mm256_mul_pd(x1, x1);
-			const __m256d t46 = _mm256_mul_pd(t45, x1);
-			const __m256d t47 = _mm256_fmadd_pd(t44, t46, t38);
-			acc0 = _mm256_fmadd_pd(s, t47, acc0);
-		}
-		_mm256_storeu_pd(sum + pass, acc0);
-	}
-}
-
-/* integral of x^2 y^6; scheme matrix.
- * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x2y6_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
-		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
-			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
-			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const __m256d y1 = _mm256_loadu_pd(at_y1);
-			const __m256d t0 = _mm256_mul_pd(y0, y0);
-			const __m256d t1 = _mm256_mul_pd(t0, t0);
-			const __m256d t2 = _mm256_mul_pd(y0, y1);
-			const __m256d t3 = _mm256_mul_pd(t2, t1);
-			const __m256d t4 = _mm256_mul_pd(t0, y0);
-			const __m256d t5 = _mm256_mul_pd(t4, t4);
-			const __m256d t6 = _mm256_mul_pd(_mm256_set1_pd(0x1.ddddddddddddep-2 /* 7/15 */), t5);
-			const __m256d t7 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-1 /* 4/5 */), t3, t6);
-			const __m256d t8 = _mm256_mul_pd(t2, t2);
-			const __m256d t9 = _mm256_mul_pd(t0, t8);
-			const __m256d t10 = _mm256_add_pd(t9, t7);
-			const __m256d t11 = _mm256_mul_pd(t2, t8);
-			const __m256d t12 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.1111111111111p0 /* 16/15 */), t11, t10);
-			const __m256d t13 = _mm256_mul_pd(y1, y1);
-			const __m256d t14 = _mm256_mul_pd(t8, t13);
-			const __m256d t15 = _mm256_add_pd(t14, t12);
-			const __m256d t16 = _mm256_mul_pd(t13, t13);
-			const __m256d t17 = _mm256_mul_pd(t2, t16);
-			const __m256d t18 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-1 /* 4/5 */), t17, t15);
-			const __m256d t19 = _mm256_mul_pd(t13, y1);
-			const __m256d t20 = _mm256_mul_pd(t19, t19);
-			const __m256d t21 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.ddddddddddddep-2 /* 7/15 */), t20, t18);
-			const __m256d t22 = _mm256_mul_pd(_mm256_set1_pd(0x1.ddddddddddddep0 /* 28/15 */), t5);
-			const __m256d t23 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.6666666666666p0 /* 7/5 */), t3, t22);
-			const __m256d t24 = _mm256_add_pd(t23, t9);
-			const __m256d t25 = _mm256_mul_pd(_mm256_set1_pd(0x1.5555555555555p-1 /* 2/3 */), t11);
-			const __m256d t26 = _mm256_add_pd(t24, t25);
-			const __m256d t27 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-2 /* 2/5 */), t14, t26);
-			const __m256d t28 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t17, t27);
-			const __m256d t29 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.1111111111111p-4 /* 1/15 */), t20, t28);
-			const __m256d t30 = _mm256_mul_pd(x0, x0);
-			const __m256d t31 = _mm256_mul_pd(t29, t30);
-			const __m256d t32 = _mm256_mul_pd(x0, x1);
-			const __m256d t33 = _mm256_fmadd_pd(t21, t32, t31);
-			const __m256d t34 = _mm256_mul_pd(_mm256_set1_pd(0x1.1111111111111p-4 /* 1/15 */), t5);
-			const __m256d t35 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-3 /* 1/5 */), t3, t34);
-			const __m256d t36 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.999999999999ap-2 /* 2/5 */), t9, t35);
-			const __m256d t37 = _mm256_add_pd(t25, t36);
-			const __m256d t38 = _mm256_add_pd(t14, t37);
-			const __m256d t39 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.6666666666666p0 /* 7/5 */), t17, t38);
-			const __m256d t40 = _mm256_fmadd_pd(_mm256_set1_pd(0x1.ddddddddddddep0 /* 28/15 */), t20, t39);
-			const __m256d t41 = _mm256_mul_pd(x1, x1);
-			const __m256d t42 = _mm256_fmadd_pd(t40, t41, t33);
-			const __m256d t43 = _mm256_mul_pd(x0, y1);
-			const __m256d t44 = _mm256_mul_pd(x1, y0);
-			const __m256d s = _mm256_sub_pd(t43, t44);
-			acc0 = _mm256_fmadd_pd(s, t42, acc0);
-		}
-		_mm256_storeu_pd(sum + pass, acc0);
-	}
-}
-
-/* integral of x^1 y^7; scheme matrix.
- * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x1y7_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
-		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
-			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
-			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const __m256d y1 = _mm256_loadu_pd(at_y1);
-			const __m256d t0 = _mm256_mul_pd(y0, y0);
-			const __m256d t1 = _mm256_mul_pd(t0, y0);
-			const __m256d t2 = _mm256_mul_pd(t0, t1);
-			const __m256d t3 = _mm256_mul_pd(y0, y1);
-			const __m256d t4 = _mm256_mul_pd(t3, t2);
-			const __m256d t5 = _mm256_mul_pd(t0, t0);
-			const __m256d t6 = _mm256_mul_pd(t1, t5);
-			const __m256d t7 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t4, t6);
-			const __m256d t8 = _mm256_mul_pd(t3, t3);
-			const __m256d t9 = _mm256_mul_pd(t1, t8);
-			const __m256d t10 = _mm256_fmadd_pd(_mm256_set1_pd(3.0), t9, t7);
-			const __m256d t11 = _mm256_mul_pd(t3, t8);
-			const __m256d t12 = _mm256_mul_pd(t11, y0);
-			const __m256d t13 = _mm256_fmadd_pd(_mm256_set1_pd(4.0), t12, t10);
-			const __m256d t14 = _mm256_mul_pd(t11, y1);
-			const __m256d t15 = _mm256_fmadd_pd(_mm256_set1_pd(5.0), t14, t13);
-			const __m256d t16 = _mm256_mul_pd(y1, y1);
-			const __m256d t17 = _mm256_mul_pd(t16, y1);
-			const __m256d t18 = _mm256_mul_pd(t8, t17);
-			const __m256d t19 = _mm256_fmadd_pd(_mm256_set1_pd(6.0), t18, t15);
-			const __m256d t20 = _mm256_mul_pd(t16, t17);
-			const __m256d t21 = _mm256_mul_pd(t3, t20);
-			const __m256d t22 = _mm256_fmadd_pd(_mm256_set1_pd(7.0), t21, t19);
-			const __m256d t23 = _mm256_mul_pd(t16, t16);
-			const __m256d t24 = _mm256_mul_pd(t17, t23);
-			const __m256d t25 = _mm256_fmadd_pd(_mm256_set1_pd(8.0), t24, t22);
-			const __m256d t26 = _mm256_mul_pd(_mm256_set1_pd(8.0), t6);
-			const __m256d t27 = _mm256_fmadd_pd(_mm256_set1_pd(7.0), t4, t26);
-			const __m256d t28 = _mm256_fmadd_pd(_mm256_set1_pd(6.0), t9, t27);
-			const __m256d t29 = _mm256_fmadd_pd(_mm256_set1_pd(5.0), t12, t28);
-			const __m256d t30 = _mm256_fmadd_pd(_mm256_set1_pd(4.0), t14, t29);
-			const __m256d t31 = _mm256_fmadd_pd(_mm256_set1_pd(3.0), t18, t30);
-			const __m256d t32 = _mm256_fmadd_pd(_mm256_set1_pd(2.0), t21, t31);
-			const __m256d t33 = _mm256_add_pd(t32, t24);
-			const __m256d t34 = _mm256_mul_pd(t33, x0);
-			const __m256d t35 = _mm256_fmadd_pd(t25, x1, t34);
-			const __m256d t36 = _mm256_mul_pd(x0, y1);
-			const __m256d t37 = _mm256_mul_pd(x1, y0);
-			const __m256d s = _mm256_sub_pd(t36, t37);
-			acc0 = _mm256_fmadd_pd(s, t35, acc0);
-		}
-		_mm256_storeu_pd(sum + pass, acc0);
-	}
-}
-
-/* integral of x^0 y^8; scheme horner.
- * Cost per item: 17 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 10. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x0y8_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
-		__m256d acc0 = _mm256_loadu_pd(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
-			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
-			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -2346,11 +2770,9 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y8_avx2(
 			const __m256d t10 = _mm256_fmadd_pd(t8, y0, t9);
 			const __m256d t11 = _mm256_mul_pd(t9, y1);
 			const __m256d t12 = _mm256_fmadd_pd(t10, y0, t11);
-			const __m256d t13 = _mm256_mul_pd(t11, y1);
-			const __m256d t14 = _mm256_fmadd_pd(t12, y0, t13);
-			const __m256d t15 = _mm256_mul_pd(t14, y0);
-			const __m256d t16 = _mm256_fmadd_pd(t13, y1, t15);
-			acc0 = _mm256_fmadd_pd(s, t16, acc0);
+			const __m256d t13 = _mm256_mul_pd(t12, y0);
+			const __m256d t14 = _mm256_fmadd_pd(t11, y1, t13);
+			acc0 = _mm256_fmadd_pd(s, t14, acc0);
 		}
 		_mm256_storeu_pd(sum + pass, acc0);
 	}

@@ -16,24 +16,26 @@
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_FMA void ew_ring_x0y0_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
+		const double cx = origin[lane];
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += 2 * step) {
 			{
 				const double y0 = y[i];
-				const double x1 = x[i + 1];
-				const double y2 = y[i + 2];
+				const double x1 = x[i + reach];
+				const double y2 = y[i + 2 * reach];
 				const double width = x1 - cx;
 				const double height = y2 - y0;
 				acc0 = fma(width, height, acc0);
 			}
-			if (count - i > 8) {
-				const double y0 = y[i + 8];
-				const double x1 = x[i + 9];
-				const double y2 = y[i + 10];
+			if (count - i > step) {
+				const double y0 = y[i + step];
+				const double x1 = x[i + step + reach];
+				const double y2 = y[i + step + 2 * reach];
 				const double width = x1 - cx;
 				const double height = y2 - y0;
 				acc1 = fma(width, height, acc1);
@@ -47,16 +49,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y0_fma(
 /* integral of x^1 y^0; scheme matrix.
  * Cost per item: 3 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 3. */
 EW_ATTRIBUTE_FMA void ew_ring_x1y0_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -70,16 +73,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y0_fma(
 /* integral of x^0 y^1; scheme matrix.
  * Cost per item: 3 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 3. */
 EW_ATTRIBUTE_FMA void ew_ring_x0y1_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -93,16 +97,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y1_fma(
 /* integral of x^2 y^0; scheme horner.
  * Cost per item: 5 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 4. */
 EW_ATTRIBUTE_FMA void ew_ring_x2y0_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -118,16 +123,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y0_fma(
 /* integral of x^1 y^1; scheme matrix.
  * Cost per item: 7 mul or fma, 1 add; 1 accumulators, 7 values alive, depth 4. */
 EW_ATTRIBUTE_FMA void ew_ring_x1y1_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -144,16 +150,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y1_fma(
 /* integral of x^0 y^2; scheme horner.
  * Cost per item: 5 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 4. */
 EW_ATTRIBUTE_FMA void ew_ring_x0y2_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -169,16 +176,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y2_fma(
 /* integral of x^3 y^0; scheme even-power.
  * Cost per item: 6 mul or fma, 3 add; 1 accumulators, 5 values alive, depth 5. */
 EW_ATTRIBUTE_FMA void ew_ring_x3y0_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -196,16 +204,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y0_fma(
 /* integral of x^2 y^1; scheme even-power.
  * Cost per item: 10 mul or fma, 5 add; 1 accumulators, 7 values alive, depth 7. */
 EW_ATTRIBUTE_FMA void ew_ring_x2y1_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -229,16 +238,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y1_fma(
 /* integral of x^1 y^2; scheme even-power.
  * Cost per item: 10 mul or fma, 5 add; 1 accumulators, 7 values alive, depth 7. */
 EW_ATTRIBUTE_FMA void ew_ring_x1y2_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -262,16 +272,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y2_fma(
 /* integral of x^0 y^3; scheme even-power.
  * Cost per item: 6 mul or fma, 3 add; 1 accumulators, 5 values alive, depth 5. */
 EW_ATTRIBUTE_FMA void ew_ring_x0y3_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -289,16 +300,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y3_fma(
 /* integral of x^4 y^0; scheme horner.
  * Cost per item: 9 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 6. */
 EW_ATTRIBUTE_FMA void ew_ring_x4y0_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -318,16 +330,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y0_fma(
 /* integral of x^3 y^1; scheme even-power.
  * Cost per item: 10 mul or fma, 6 add; 1 accumulators, 9 values alive, depth 6. */
 EW_ATTRIBUTE_FMA void ew_ring_x3y1_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -352,16 +365,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y1_fma(
 /* integral of x^2 y^2; scheme even-power.
  * Cost per item: 15 mul or fma, 5 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_FMA void ew_ring_x2y2_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -390,16 +404,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y2_fma(
 /* integral of x^1 y^3; scheme even-power.
  * Cost per item: 10 mul or fma, 6 add; 1 accumulators, 9 values alive, depth 6. */
 EW_ATTRIBUTE_FMA void ew_ring_x1y3_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -424,16 +439,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y3_fma(
 /* integral of x^0 y^4; scheme horner.
  * Cost per item: 9 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 6. */
 EW_ATTRIBUTE_FMA void ew_ring_x0y4_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -453,16 +469,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y4_fma(
 /* integral of x^5 y^0; scheme horner.
  * Cost per item: 11 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 7. */
 EW_ATTRIBUTE_FMA void ew_ring_x5y0_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -484,16 +501,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y0_fma(
 /* integral of x^4 y^1; scheme even-power.
  * Cost per item: 16 mul or fma, 5 add; 1 accumulators, 9 values alive, depth 8. */
 EW_ATTRIBUTE_FMA void ew_ring_x4y1_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -523,16 +541,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y1_fma(
 /* integral of x^3 y^2; scheme even-power.
  * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_FMA void ew_ring_x3y2_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -565,16 +584,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y2_fma(
 /* integral of x^2 y^3; scheme even-power.
  * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_FMA void ew_ring_x2y3_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -607,16 +627,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y3_fma(
 /* integral of x^1 y^4; scheme even-power.
  * Cost per item: 16 mul or fma, 5 add; 1 accumulators, 9 values alive, depth 8. */
 EW_ATTRIBUTE_FMA void ew_ring_x1y4_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -646,16 +667,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y4_fma(
 /* integral of x^0 y^5; scheme horner.
  * Cost per item: 11 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 7. */
 EW_ATTRIBUTE_FMA void ew_ring_x0y5_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -677,16 +699,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y5_fma(
 /* integral of x^6 y^0; scheme horner.
  * Cost per item: 13 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 8. */
 EW_ATTRIBUTE_FMA void ew_ring_x6y0_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -710,16 +733,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y0_fma(
 /* integral of x^5 y^1; scheme even-power.
  * Cost per item: 17 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 8. */
 EW_ATTRIBUTE_FMA void ew_ring_x5y1_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double a = x0 + x1;
 			const double e = x1 - x0;
 			const double t0 = a * e;
@@ -751,16 +775,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y1_fma(
 /* integral of x^4 y^2; scheme even-power.
  * Cost per item: 23 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_FMA void ew_ring_x4y2_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -797,16 +822,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y2_fma(
 /* integral of x^3 y^3; scheme even-power.
  * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_FMA void ew_ring_x3y3_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -845,16 +871,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y3_fma(
 /* integral of x^2 y^4; scheme even-power.
  * Cost per item: 23 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_FMA void ew_ring_x2y4_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -891,16 +918,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y4_fma(
 /* integral of x^1 y^5; scheme even-power.
  * Cost per item: 17 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 8. */
 EW_ATTRIBUTE_FMA void ew_ring_x1y5_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double b = y0 + y1;
 			const double f = y1 - y0;
 			const double t0 = b * f;
@@ -932,16 +960,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y5_fma(
 /* integral of x^0 y^6; scheme horner.
  * Cost per item: 13 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 8. */
 EW_ATTRIBUTE_FMA void ew_ring_x0y6_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -965,16 +994,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y6_fma(
 /* integral of x^7 y^0; scheme horner.
  * Cost per item: 15 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 9. */
 EW_ATTRIBUTE_FMA void ew_ring_x7y0_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1000,16 +1030,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y0_fma(
 /* integral of x^6 y^1; scheme matrix.
  * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_x6y1_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * x0;
 			const double t1 = t0 * t0;
 			const double t2 = x0 * x1;
@@ -1053,16 +1084,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y1_fma(
 /* integral of x^5 y^2; scheme matrix.
  * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_x5y2_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1110,16 +1142,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y2_fma(
 /* integral of x^4 y^3; scheme matrix.
  * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_FMA void ew_ring_x4y3_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1171,16 +1204,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y3_fma(
 /* integral of x^3 y^4; scheme matrix.
  * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_FMA void ew_ring_x3y4_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1232,16 +1266,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y4_fma(
 /* integral of x^2 y^5; scheme matrix.
  * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_x2y5_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1289,16 +1324,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y5_fma(
 /* integral of x^1 y^6; scheme matrix.
  * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_x1y6_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = y0 * y0;
 			const double t1 = t0 * t0;
 			const double t2 = y0 * y1;
@@ -1342,16 +1378,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y6_fma(
 /* integral of x^0 y^7; scheme horner.
  * Cost per item: 15 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 9. */
 EW_ATTRIBUTE_FMA void ew_ring_x0y7_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1377,16 +1414,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x0y7_fma(
 /* integral of x^8 y^0; scheme horner.
  * Cost per item: 17 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 10. */
 EW_ATTRIBUTE_FMA void ew_ring_x8y0_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1414,16 +1452,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x8y0_fma(
 /* integral of x^7 y^1; scheme matrix.
  * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x7y1_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * x0;
 			const double t1 = t0 * x0;
 			const double t2 = t0 * t1;
@@ -1472,16 +1511,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x7y1_fma(
 /* integral of x^6 y^2; scheme matrix.
  * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x6y2_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * x0;
 			const double t1 = t0 * t0;
 			const double t2 = x0 * x1;
@@ -1537,16 +1577,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x6y2_fma(
 /* integral of x^5 y^3; scheme matrix.
  * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x5y3_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1605,16 +1646,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x5y3_fma(
 /* integral of x^4 y^4; scheme matrix.
  * Cost per item: 45 mul or fma, 6 add; 1 accumulators, 14 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_x4y4_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1674,16 +1716,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x4y4_fma(
 /* integral of x^3 y^5; scheme matrix.
  * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x3y5_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1742,16 +1785,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x3y5_fma(
 /* integral of x^2 y^6; scheme matrix.
  * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x2y6_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = y0 * y0;
 			const double t1 = t0 * t0;
 			const double t2 = y0 * y1;
@@ -1807,16 +1851,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x2y6_fma(
 /* integral of x^1 y^7; scheme matrix.
  * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
 EW_ATTRIBUTE_FMA void ew_ring_x1y7_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = y0 * y0;
 			const double t1 = t0 * y0;
 			const double t2 = t0 * t1;
@@ -1865,16 +1910,17 @@ EW_ATTRIBUTE_FMA void ew_ring_x1y7_fma(
 /* integral of x^0 y^8; scheme horner.
  * Cost per item: 17 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 10. */
 EW_ATTRIBUTE_FMA void ew_ring_x0y8_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;

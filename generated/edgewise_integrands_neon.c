@@ -16,40 +16,56 @@
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y0_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	const float64x2_t cx = vdupq_n_f64(origin);
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
+		const float64x2_t cx = vld1q_f64(origin + pass);
 		float64x2_t acc0 = vld1q_f64(sum + pass);
 		float64x2_t acc1 = vld1q_f64(sum + 8 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + step + 1 < count; i += 2 * step) {
+			{
+				const float64x2_t y0 = vld1q_f64(y + i);
+				const float64x2_t x1 = vld1q_f64(x + i + reach);
+				const float64x2_t y2 = vld1q_f64(y + i + 2 * reach);
+				const float64x2_t width = vsubq_f64(x1, cx);
+				const float64x2_t height = vsubq_f64(y2, y0);
+				acc0 = vfmaq_f64(acc0, width, height);
+			}
+			{
+				const float64x2_t y0 = vld1q_f64(y + i + step);
+				const float64x2_t x1 = vld1q_f64(x + i + step + reach);
+				const float64x2_t y2 = vld1q_f64(y + i + step + 2 * reach);
+				const float64x2_t width = vsubq_f64(x1, cx);
+				const float64x2_t height = vsubq_f64(y2, y0);
+				acc1 = vfmaq_f64(acc1, width, height);
+			}
+		}
+		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
 				double pad[4][2];
-				const double *at_y0 = rest < 2
-					? ew_ring_pad(pad[0], y + i, rest, 2) : y + i;
+				int at = 0;
+				const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 				const float64x2_t y0 = vld1q_f64(at_y0);
-				const double *at_x1 = rest < 2
-					? ew_ring_pad(pad[1], x + i + 1, rest, 2) : x + i + 1;
+				const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 				const float64x2_t x1 = vld1q_f64(at_x1);
-				const double *at_y2 = rest < 2
-					? ew_ring_pad(pad[2], y + i + 2, rest, 2) : y + i + 2;
+				const double *at_y2 = ew_ring_pad(pad[at++], y + i + 2 * reach, rest, 2);
 				const float64x2_t y2 = vld1q_f64(at_y2);
 				const float64x2_t width = vsubq_f64(x1, cx);
 				const float64x2_t height = vsubq_f64(y2, y0);
 				acc0 = vfmaq_f64(acc0, width, height);
 			}
 			{
-				const size_t rest = count - i > 8 ? count - i - 8 : 0;
+				const size_t rest = count - i > step ? count - i - step : 0;
 				double pad[4][2];
-				const double *at_y0 = rest < 2
-					? ew_ring_pad(pad[0], y + i + 8, rest, 2) : y + i + 8;
+				int at = 0;
+				const double *at_y0 = ew_ring_pad(pad[at++], y + i + step, rest, 2);
 				const float64x2_t y0 = vld1q_f64(at_y0);
-				const double *at_x1 = rest < 2
-					? ew_ring_pad(pad[1], x + i + 9, rest, 2) : x + i + 9;
+				const double *at_x1 = ew_ring_pad(pad[at++], x + i + step + reach, rest, 2);
 				const float64x2_t x1 = vld1q_f64(at_x1);
-				const double *at_y2 = rest < 2
-					? ew_ring_pad(pad[2], y + i + 10, rest, 2) : y + i + 10;
+				const double *at_y2 = ew_ring_pad(pad[at++], y + i + step + 2 * reach, rest, 2);
 				const float64x2_t y2 = vld1q_f64(at_y2);
 				const float64x2_t width = vsubq_f64(x1, cx);
 				const float64x2_t height = vsubq_f64(y2, y0);
@@ -64,25 +80,35 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y0_neon(
 /* integral of x^1 y^0; scheme matrix.
  * Cost per item: 3 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 3. */
 EW_ATTRIBUTE_NEON void ew_ring_x1y0_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vaddq_f64(x0, x1);
+			acc0 = vfmaq_f64(acc0, s, t2);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -97,25 +123,35 @@ EW_ATTRIBUTE_NEON void ew_ring_x1y0_neon(
 /* integral of x^0 y^1; scheme matrix.
  * Cost per item: 3 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 3. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y1_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vaddq_f64(y0, y1);
+			acc0 = vfmaq_f64(acc0, s, t2);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -130,25 +166,37 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y1_neon(
 /* integral of x^2 y^0; scheme horner.
  * Cost per item: 5 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 4. */
 EW_ATTRIBUTE_NEON void ew_ring_x2y0_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vaddq_f64(x0, x1);
+			const float64x2_t t3 = vmulq_f64(t2, x0);
+			const float64x2_t t4 = vfmaq_f64(t3, x1, x1);
+			acc0 = vfmaq_f64(acc0, s, t4);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -165,25 +213,38 @@ EW_ATTRIBUTE_NEON void ew_ring_x2y0_neon(
 /* integral of x^1 y^1; scheme matrix.
  * Cost per item: 7 mul or fma, 1 add; 1 accumulators, 7 values alive, depth 4. */
 EW_ATTRIBUTE_NEON void ew_ring_x1y1_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vfmaq_f64(y0, vdupq_n_f64(2.0), y1);
+			const float64x2_t t3 = vfmaq_f64(y1, vdupq_n_f64(2.0), y0);
+			const float64x2_t t4 = vmulq_f64(t3, x0);
+			const float64x2_t t5 = vfmaq_f64(t4, t2, x1);
+			acc0 = vfmaq_f64(acc0, s, t5);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -201,25 +262,37 @@ EW_ATTRIBUTE_NEON void ew_ring_x1y1_neon(
 /* integral of x^0 y^2; scheme horner.
  * Cost per item: 5 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 4. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y2_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vaddq_f64(y0, y1);
+			const float64x2_t t3 = vmulq_f64(t2, y0);
+			const float64x2_t t4 = vfmaq_f64(t3, y1, y1);
+			acc0 = vfmaq_f64(acc0, s, t4);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -236,25 +309,39 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y2_neon(
 /* integral of x^3 y^0; scheme even-power.
  * Cost per item: 6 mul or fma, 3 add; 1 accumulators, 5 values alive, depth 5. */
 EW_ATTRIBUTE_NEON void ew_ring_x3y0_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t t2 = vmulq_f64(a, a);
+			const float64x2_t t3 = vfmaq_f64(t2, e, e);
+			const float64x2_t t4 = vmulq_f64(a, t3);
+			acc0 = vfmaq_f64(acc0, s, t4);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -273,25 +360,45 @@ EW_ATTRIBUTE_NEON void ew_ring_x3y0_neon(
 /* integral of x^2 y^1; scheme even-power.
  * Cost per item: 10 mul or fma, 5 add; 1 accumulators, 7 values alive, depth 7. */
 EW_ATTRIBUTE_NEON void ew_ring_x2y1_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t t2 = vmulq_f64(a, a);
+			const float64x2_t t3 = vmulq_f64(vdupq_n_f64(3.0), t2);
+			const float64x2_t t4 = vfmaq_f64(t3, e, e);
+			const float64x2_t t5 = vmulq_f64(b, t4);
+			const float64x2_t t6 = vmulq_f64(a, e);
+			const float64x2_t t7 = vmulq_f64(f, t6);
+			const float64x2_t t8 = vfmaq_f64(t5, vdupq_n_f64(2.0), t7);
+			acc0 = vfmaq_f64(acc0, s, t8);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -316,25 +423,45 @@ EW_ATTRIBUTE_NEON void ew_ring_x2y1_neon(
 /* integral of x^1 y^2; scheme even-power.
  * Cost per item: 10 mul or fma, 5 add; 1 accumulators, 7 values alive, depth 7. */
 EW_ATTRIBUTE_NEON void ew_ring_x1y2_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t t2 = vmulq_f64(b, b);
+			const float64x2_t t3 = vmulq_f64(vdupq_n_f64(3.0), t2);
+			const float64x2_t t4 = vfmaq_f64(t3, f, f);
+			const float64x2_t t5 = vmulq_f64(a, t4);
+			const float64x2_t t6 = vmulq_f64(b, f);
+			const float64x2_t t7 = vmulq_f64(e, t6);
+			const float64x2_t t8 = vfmaq_f64(t5, vdupq_n_f64(2.0), t7);
+			acc0 = vfmaq_f64(acc0, s, t8);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -359,25 +486,39 @@ EW_ATTRIBUTE_NEON void ew_ring_x1y2_neon(
 /* integral of x^0 y^3; scheme even-power.
  * Cost per item: 6 mul or fma, 3 add; 1 accumulators, 5 values alive, depth 5. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y3_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t t2 = vmulq_f64(b, b);
+			const float64x2_t t3 = vfmaq_f64(t2, f, f);
+			const float64x2_t t4 = vmulq_f64(b, t3);
+			acc0 = vfmaq_f64(acc0, s, t4);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -396,25 +537,41 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y3_neon(
 /* integral of x^4 y^0; scheme horner.
  * Cost per item: 9 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 6. */
 EW_ATTRIBUTE_NEON void ew_ring_x4y0_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vaddq_f64(x0, x1);
+			const float64x2_t t3 = vmulq_f64(x1, x1);
+			const float64x2_t t4 = vfmaq_f64(t3, t2, x0);
+			const float64x2_t t5 = vmulq_f64(t3, x1);
+			const float64x2_t t6 = vfmaq_f64(t5, t4, x0);
+			const float64x2_t t7 = vmulq_f64(t6, x0);
+			const float64x2_t t8 = vfmaq_f64(t7, t5, x1);
+			acc0 = vfmaq_f64(acc0, s, t8);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -435,25 +592,47 @@ EW_ATTRIBUTE_NEON void ew_ring_x4y0_neon(
 /* integral of x^3 y^1; scheme even-power.
  * Cost per item: 10 mul or fma, 6 add; 1 accumulators, 9 values alive, depth 6. */
 EW_ATTRIBUTE_NEON void ew_ring_x3y1_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t t2 = vmulq_f64(a, a);
+			const float64x2_t t3 = vmulq_f64(e, e);
+			const float64x2_t t4 = vaddq_f64(t2, t3);
+			const float64x2_t t5 = vmulq_f64(a, b);
+			const float64x2_t t6 = vmulq_f64(t4, t5);
+			const float64x2_t t7 = vfmaq_f64(t2,
+				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t3);
+			const float64x2_t t8 = vmulq_f64(e, f);
+			const float64x2_t t9 = vfmaq_f64(t6, t7, t8);
+			acc0 = vfmaq_f64(acc0, s, t9);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -480,25 +659,51 @@ EW_ATTRIBUTE_NEON void ew_ring_x3y1_neon(
 /* integral of x^2 y^2; scheme even-power.
  * Cost per item: 15 mul or fma, 5 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_NEON void ew_ring_x2y2_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t t2 = vmulq_f64(b, b);
+			const float64x2_t t3 = vmulq_f64(f, f);
+			const float64x2_t t4 = vfmaq_f64(t3, vdupq_n_f64(3.0), t2);
+			const float64x2_t t5 = vmulq_f64(a, a);
+			const float64x2_t t6 = vmulq_f64(t4, t5);
+			const float64x2_t t7 = vmulq_f64(a, e);
+			const float64x2_t t8 = vmulq_f64(b, f);
+			const float64x2_t t9 = vmulq_f64(t7, t8);
+			const float64x2_t t10 = vfmaq_f64(t6, vdupq_n_f64(4.0), t9);
+			const float64x2_t t11 = vfmaq_f64(t2,
+				vdupq_n_f64(0x1.3333333333333p-1 /* 3/5 */), t3);
+			const float64x2_t t12 = vmulq_f64(e, e);
+			const float64x2_t t13 = vfmaq_f64(t10, t11, t12);
+			acc0 = vfmaq_f64(acc0, s, t13);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -529,25 +734,47 @@ EW_ATTRIBUTE_NEON void ew_ring_x2y2_neon(
 /* integral of x^1 y^3; scheme even-power.
  * Cost per item: 10 mul or fma, 6 add; 1 accumulators, 9 values alive, depth 6. */
 EW_ATTRIBUTE_NEON void ew_ring_x1y3_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t t2 = vmulq_f64(b, b);
+			const float64x2_t t3 = vmulq_f64(f, f);
+			const float64x2_t t4 = vaddq_f64(t2, t3);
+			const float64x2_t t5 = vmulq_f64(a, b);
+			const float64x2_t t6 = vmulq_f64(t4, t5);
+			const float64x2_t t7 = vfmaq_f64(t2,
+				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t3);
+			const float64x2_t t8 = vmulq_f64(e, f);
+			const float64x2_t t9 = vfmaq_f64(t6, t7, t8);
+			acc0 = vfmaq_f64(acc0, s, t9);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -574,25 +801,41 @@ EW_ATTRIBUTE_NEON void ew_ring_x1y3_neon(
 /* integral of x^0 y^4; scheme horner.
  * Cost per item: 9 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 6. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y4_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vaddq_f64(y0, y1);
+			const float64x2_t t3 = vmulq_f64(y1, y1);
+			const float64x2_t t4 = vfmaq_f64(t3, t2, y0);
+			const float64x2_t t5 = vmulq_f64(t3, y1);
+			const float64x2_t t6 = vfmaq_f64(t5, t4, y0);
+			const float64x2_t t7 = vmulq_f64(t6, y0);
+			const float64x2_t t8 = vfmaq_f64(t7, t5, y1);
+			acc0 = vfmaq_f64(acc0, s, t8);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -613,25 +856,43 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y4_neon(
 /* integral of x^5 y^0; scheme horner.
  * Cost per item: 11 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 7. */
 EW_ATTRIBUTE_NEON void ew_ring_x5y0_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vaddq_f64(x0, x1);
+			const float64x2_t t3 = vmulq_f64(x1, x1);
+			const float64x2_t t4 = vfmaq_f64(t3, t2, x0);
+			const float64x2_t t5 = vmulq_f64(t3, x1);
+			const float64x2_t t6 = vfmaq_f64(t5, t4, x0);
+			const float64x2_t t7 = vmulq_f64(t5, x1);
+			const float64x2_t t8 = vfmaq_f64(t7, t6, x0);
+			const float64x2_t t9 = vmulq_f64(t8, x0);
+			const float64x2_t t10 = vfmaq_f64(t9, t7, x1);
+			acc0 = vfmaq_f64(acc0, s, t10);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -654,25 +915,53 @@ EW_ATTRIBUTE_NEON void ew_ring_x5y0_neon(
 /* integral of x^4 y^1; scheme even-power.
  * Cost per item: 16 mul or fma, 5 add; 1 accumulators, 9 values alive, depth 8. */
 EW_ATTRIBUTE_NEON void ew_ring_x4y1_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t t2 = vmulq_f64(a, a);
+			const float64x2_t t3 = vmulq_f64(t2, t2);
+			const float64x2_t t4 = vmulq_f64(a, e);
+			const float64x2_t t5 = vmulq_f64(t4, t4);
+			const float64x2_t t6 = vfmaq_f64(t3, vdupq_n_f64(2.0), t5);
+			const float64x2_t t7 = vmulq_f64(e, e);
+			const float64x2_t t8 = vmulq_f64(t7, t7);
+			const float64x2_t t9 = vfmaq_f64(t6,
+				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t8);
+			const float64x2_t t10 = vmulq_f64(b, t9);
+			const float64x2_t t11 = vmulq_f64(vdupq_n_f64(0x1.5555555555555p0 /* 4/3 */), t2);
+			const float64x2_t t12 = vfmaq_f64(t11,
+				vdupq_n_f64(0x1.999999999999ap-1 /* 4/5 */), t7);
+			const float64x2_t t13 = vmulq_f64(f, t4);
+			const float64x2_t t14 = vfmaq_f64(t10, t12, t13);
+			acc0 = vfmaq_f64(acc0, s, t14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -705,25 +994,56 @@ EW_ATTRIBUTE_NEON void ew_ring_x4y1_neon(
 /* integral of x^3 y^2; scheme even-power.
  * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_NEON void ew_ring_x3y2_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t t2 = vmulq_f64(a, a);
+			const float64x2_t t3 = vmulq_f64(e, e);
+			const float64x2_t t4 = vaddq_f64(t2, t3);
+			const float64x2_t t5 = vmulq_f64(b, b);
+			const float64x2_t t6 = vmulq_f64(a, t5);
+			const float64x2_t t7 = vmulq_f64(t4, t6);
+			const float64x2_t t8 = vmulq_f64(vdupq_n_f64(2.0), t2);
+			const float64x2_t t9 = vfmaq_f64(t8,
+				vdupq_n_f64(0x1.999999999999ap-2 /* 2/5 */), t3);
+			const float64x2_t t10 = vmulq_f64(b, f);
+			const float64x2_t t11 = vmulq_f64(e, t10);
+			const float64x2_t t12 = vfmaq_f64(t7, t9, t11);
+			const float64x2_t t13 = vmulq_f64(vdupq_n_f64(0x1.5555555555555p-2 /* 1/3 */), t2);
+			const float64x2_t t14 = vfmaq_f64(t13,
+				vdupq_n_f64(0x1.3333333333333p-1 /* 3/5 */), t3);
+			const float64x2_t t15 = vmulq_f64(f, f);
+			const float64x2_t t16 = vmulq_f64(a, t15);
+			const float64x2_t t17 = vfmaq_f64(t12, t14, t16);
+			acc0 = vfmaq_f64(acc0, s, t17);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -759,25 +1079,56 @@ EW_ATTRIBUTE_NEON void ew_ring_x3y2_neon(
 /* integral of x^2 y^3; scheme even-power.
  * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_NEON void ew_ring_x2y3_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t t2 = vmulq_f64(b, b);
+			const float64x2_t t3 = vmulq_f64(f, f);
+			const float64x2_t t4 = vaddq_f64(t2, t3);
+			const float64x2_t t5 = vmulq_f64(a, a);
+			const float64x2_t t6 = vmulq_f64(b, t5);
+			const float64x2_t t7 = vmulq_f64(t4, t6);
+			const float64x2_t t8 = vmulq_f64(vdupq_n_f64(2.0), t2);
+			const float64x2_t t9 = vfmaq_f64(t8,
+				vdupq_n_f64(0x1.999999999999ap-2 /* 2/5 */), t3);
+			const float64x2_t t10 = vmulq_f64(a, e);
+			const float64x2_t t11 = vmulq_f64(f, t10);
+			const float64x2_t t12 = vfmaq_f64(t7, t9, t11);
+			const float64x2_t t13 = vmulq_f64(vdupq_n_f64(0x1.5555555555555p-2 /* 1/3 */), t2);
+			const float64x2_t t14 = vfmaq_f64(t13,
+				vdupq_n_f64(0x1.3333333333333p-1 /* 3/5 */), t3);
+			const float64x2_t t15 = vmulq_f64(e, e);
+			const float64x2_t t16 = vmulq_f64(b, t15);
+			const float64x2_t t17 = vfmaq_f64(t12, t14, t16);
+			acc0 = vfmaq_f64(acc0, s, t17);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -813,25 +1164,53 @@ EW_ATTRIBUTE_NEON void ew_ring_x2y3_neon(
 /* integral of x^1 y^4; scheme even-power.
  * Cost per item: 16 mul or fma, 5 add; 1 accumulators, 9 values alive, depth 8. */
 EW_ATTRIBUTE_NEON void ew_ring_x1y4_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t t2 = vmulq_f64(b, b);
+			const float64x2_t t3 = vmulq_f64(t2, t2);
+			const float64x2_t t4 = vmulq_f64(b, f);
+			const float64x2_t t5 = vmulq_f64(t4, t4);
+			const float64x2_t t6 = vfmaq_f64(t3, vdupq_n_f64(2.0), t5);
+			const float64x2_t t7 = vmulq_f64(f, f);
+			const float64x2_t t8 = vmulq_f64(t7, t7);
+			const float64x2_t t9 = vfmaq_f64(t6,
+				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t8);
+			const float64x2_t t10 = vmulq_f64(a, t9);
+			const float64x2_t t11 = vmulq_f64(vdupq_n_f64(0x1.5555555555555p0 /* 4/3 */), t2);
+			const float64x2_t t12 = vfmaq_f64(t11,
+				vdupq_n_f64(0x1.999999999999ap-1 /* 4/5 */), t7);
+			const float64x2_t t13 = vmulq_f64(e, t4);
+			const float64x2_t t14 = vfmaq_f64(t10, t12, t13);
+			acc0 = vfmaq_f64(acc0, s, t14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -864,25 +1243,43 @@ EW_ATTRIBUTE_NEON void ew_ring_x1y4_neon(
 /* integral of x^0 y^5; scheme horner.
  * Cost per item: 11 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 7. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y5_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vaddq_f64(y0, y1);
+			const float64x2_t t3 = vmulq_f64(y1, y1);
+			const float64x2_t t4 = vfmaq_f64(t3, t2, y0);
+			const float64x2_t t5 = vmulq_f64(t3, y1);
+			const float64x2_t t6 = vfmaq_f64(t5, t4, y0);
+			const float64x2_t t7 = vmulq_f64(t5, y1);
+			const float64x2_t t8 = vfmaq_f64(t7, t6, y0);
+			const float64x2_t t9 = vmulq_f64(t8, y0);
+			const float64x2_t t10 = vfmaq_f64(t9, t7, y1);
+			acc0 = vfmaq_f64(acc0, s, t10);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -905,25 +1302,45 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y5_neon(
 /* integral of x^6 y^0; scheme horner.
  * Cost per item: 13 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 8. */
 EW_ATTRIBUTE_NEON void ew_ring_x6y0_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vaddq_f64(x0, x1);
+			const float64x2_t t3 = vmulq_f64(x1, x1);
+			const float64x2_t t4 = vfmaq_f64(t3, t2, x0);
+			const float64x2_t t5 = vmulq_f64(t3, x1);
+			const float64x2_t t6 = vfmaq_f64(t5, t4, x0);
+			const float64x2_t t7 = vmulq_f64(t5, x1);
+			const float64x2_t t8 = vfmaq_f64(t7, t6, x0);
+			const float64x2_t t9 = vmulq_f64(t7, x1);
+			const float64x2_t t10 = vfmaq_f64(t9, t8, x0);
+			const float64x2_t t11 = vmulq_f64(t10, x0);
+			const float64x2_t t12 = vfmaq_f64(t11, t9, x1);
+			acc0 = vfmaq_f64(acc0, s, t12);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -948,25 +1365,55 @@ EW_ATTRIBUTE_NEON void ew_ring_x6y0_neon(
 /* integral of x^5 y^1; scheme even-power.
  * Cost per item: 17 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 8. */
 EW_ATTRIBUTE_NEON void ew_ring_x5y1_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t t0 = vmulq_f64(a, e);
+			const float64x2_t t1 = vmulq_f64(t0, t0);
+			const float64x2_t t2 = vmulq_f64(a, a);
+			const float64x2_t t3 = vmulq_f64(t2, t2);
+			const float64x2_t t4 = vmulq_f64(vdupq_n_f64(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t3);
+			const float64x2_t t5 = vfmaq_f64(t4, vdupq_n_f64(2.0), t1);
+			const float64x2_t t6 = vmulq_f64(e, e);
+			const float64x2_t t7 = vmulq_f64(t6, t6);
+			const float64x2_t t8 = vfmaq_f64(t5,
+				vdupq_n_f64(0x1.2492492492492p-3 /* 1/7 */), t7);
+			const float64x2_t t9 = vfmaq_f64(t3,
+				vdupq_n_f64(0x1.aaaaaaaaaaaabp1 /* 10/3 */), t1);
+			const float64x2_t t10 = vaddq_f64(t9, t7);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t t11 = vmulq_f64(a, b);
+			const float64x2_t t12 = vmulq_f64(t10, t11);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t t13 = vmulq_f64(e, f);
+			const float64x2_t t14 = vfmaq_f64(t12, t8, t13);
+			const float64x2_t t15 = vmulq_f64(x0, y1);
+			const float64x2_t t16 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t15, t16);
+			acc0 = vfmaq_f64(acc0, s, t14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t a = vaddq_f64(x0, x1);
 			const float64x2_t e = vsubq_f64(x1, x0);
@@ -1001,25 +1448,62 @@ EW_ATTRIBUTE_NEON void ew_ring_x5y1_neon(
 /* integral of x^4 y^2; scheme even-power.
  * Cost per item: 23 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_NEON void ew_ring_x4y2_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t t2 = vmulq_f64(a, a);
+			const float64x2_t t3 = vmulq_f64(t2, t2);
+			const float64x2_t t4 = vmulq_f64(a, e);
+			const float64x2_t t5 = vmulq_f64(t4, t4);
+			const float64x2_t t6 = vfmaq_f64(t3, vdupq_n_f64(2.0), t5);
+			const float64x2_t t7 = vmulq_f64(e, e);
+			const float64x2_t t8 = vmulq_f64(t7, t7);
+			const float64x2_t t9 = vfmaq_f64(t6,
+				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t8);
+			const float64x2_t t10 = vmulq_f64(b, b);
+			const float64x2_t t11 = vmulq_f64(t9, t10);
+			const float64x2_t t12 = vmulq_f64(vdupq_n_f64(0x1.5555555555555p1 /* 8/3 */), t2);
+			const float64x2_t t13 = vfmaq_f64(t12,
+				vdupq_n_f64(0x1.999999999999ap0 /* 8/5 */), t7);
+			const float64x2_t t14 = vmulq_f64(b, f);
+			const float64x2_t t15 = vmulq_f64(t4, t14);
+			const float64x2_t t16 = vfmaq_f64(t11, t13, t15);
+			const float64x2_t t17 = vmulq_f64(vdupq_n_f64(0x1.5555555555555p-2 /* 1/3 */), t3);
+			const float64x2_t t18 = vfmaq_f64(t17,
+				vdupq_n_f64(0x1.3333333333333p0 /* 6/5 */), t5);
+			const float64x2_t t19 = vfmaq_f64(t18,
+				vdupq_n_f64(0x1.2492492492492p-3 /* 1/7 */), t8);
+			const float64x2_t t20 = vmulq_f64(f, f);
+			const float64x2_t t21 = vfmaq_f64(t16, t19, t20);
+			acc0 = vfmaq_f64(acc0, s, t21);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -1061,25 +1545,62 @@ EW_ATTRIBUTE_NEON void ew_ring_x4y2_neon(
 /* integral of x^3 y^3; scheme even-power.
  * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_NEON void ew_ring_x3y3_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t t2 = vmulq_f64(b, b);
+			const float64x2_t t3 = vmulq_f64(vdupq_n_f64(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t2);
+			const float64x2_t t4 = vmulq_f64(f, f);
+			const float64x2_t t5 = vfmaq_f64(t3,
+				vdupq_n_f64(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t4);
+			const float64x2_t t6 = vmulq_f64(a, a);
+			const float64x2_t t7 = vmulq_f64(a, t6);
+			const float64x2_t t8 = vmulq_f64(b, t7);
+			const float64x2_t t9 = vmulq_f64(t5, t8);
+			const float64x2_t t10 = vfmaq_f64(t4, vdupq_n_f64(5.0), t2);
+			const float64x2_t t11 = vmulq_f64(a, e);
+			const float64x2_t t12 = vmulq_f64(a, t11);
+			const float64x2_t t13 = vmulq_f64(f, t12);
+			const float64x2_t t14 = vfmaq_f64(t9, t10, t13);
+			const float64x2_t t15 = vfmaq_f64(t3, vdupq_n_f64(3.0), t4);
+			const float64x2_t t16 = vmulq_f64(e, t11);
+			const float64x2_t t17 = vmulq_f64(b, t16);
+			const float64x2_t t18 = vfmaq_f64(t14, t15, t17);
+			const float64x2_t t19 = vfmaq_f64(t2,
+				vdupq_n_f64(0x1.e79e79e79e79ep-3 /* 5/21 */), t4);
+			const float64x2_t t20 = vmulq_f64(e, e);
+			const float64x2_t t21 = vmulq_f64(e, t20);
+			const float64x2_t t22 = vmulq_f64(f, t21);
+			const float64x2_t t23 = vfmaq_f64(t18, t19, t22);
+			acc0 = vfmaq_f64(acc0, s, t23);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -1121,25 +1642,62 @@ EW_ATTRIBUTE_NEON void ew_ring_x3y3_neon(
 /* integral of x^2 y^4; scheme even-power.
  * Cost per item: 23 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_NEON void ew_ring_x2y4_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t t2 = vmulq_f64(b, b);
+			const float64x2_t t3 = vmulq_f64(t2, t2);
+			const float64x2_t t4 = vmulq_f64(b, f);
+			const float64x2_t t5 = vmulq_f64(t4, t4);
+			const float64x2_t t6 = vfmaq_f64(t3, vdupq_n_f64(2.0), t5);
+			const float64x2_t t7 = vmulq_f64(f, f);
+			const float64x2_t t8 = vmulq_f64(t7, t7);
+			const float64x2_t t9 = vfmaq_f64(t6,
+				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t8);
+			const float64x2_t t10 = vmulq_f64(a, a);
+			const float64x2_t t11 = vmulq_f64(t9, t10);
+			const float64x2_t t12 = vmulq_f64(vdupq_n_f64(0x1.5555555555555p1 /* 8/3 */), t2);
+			const float64x2_t t13 = vfmaq_f64(t12,
+				vdupq_n_f64(0x1.999999999999ap0 /* 8/5 */), t7);
+			const float64x2_t t14 = vmulq_f64(a, e);
+			const float64x2_t t15 = vmulq_f64(t4, t14);
+			const float64x2_t t16 = vfmaq_f64(t11, t13, t15);
+			const float64x2_t t17 = vmulq_f64(vdupq_n_f64(0x1.5555555555555p-2 /* 1/3 */), t3);
+			const float64x2_t t18 = vfmaq_f64(t17,
+				vdupq_n_f64(0x1.3333333333333p0 /* 6/5 */), t5);
+			const float64x2_t t19 = vfmaq_f64(t18,
+				vdupq_n_f64(0x1.2492492492492p-3 /* 1/7 */), t8);
+			const float64x2_t t20 = vmulq_f64(e, e);
+			const float64x2_t t21 = vfmaq_f64(t16, t19, t20);
+			acc0 = vfmaq_f64(acc0, s, t21);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -1181,25 +1739,55 @@ EW_ATTRIBUTE_NEON void ew_ring_x2y4_neon(
 /* integral of x^1 y^5; scheme even-power.
  * Cost per item: 17 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 8. */
 EW_ATTRIBUTE_NEON void ew_ring_x1y5_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t t0 = vmulq_f64(b, f);
+			const float64x2_t t1 = vmulq_f64(t0, t0);
+			const float64x2_t t2 = vmulq_f64(b, b);
+			const float64x2_t t3 = vmulq_f64(t2, t2);
+			const float64x2_t t4 = vmulq_f64(vdupq_n_f64(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t3);
+			const float64x2_t t5 = vfmaq_f64(t4, vdupq_n_f64(2.0), t1);
+			const float64x2_t t6 = vmulq_f64(f, f);
+			const float64x2_t t7 = vmulq_f64(t6, t6);
+			const float64x2_t t8 = vfmaq_f64(t5,
+				vdupq_n_f64(0x1.2492492492492p-3 /* 1/7 */), t7);
+			const float64x2_t t9 = vfmaq_f64(t3,
+				vdupq_n_f64(0x1.aaaaaaaaaaaabp1 /* 10/3 */), t1);
+			const float64x2_t t10 = vaddq_f64(t9, t7);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t t11 = vmulq_f64(a, b);
+			const float64x2_t t12 = vmulq_f64(t10, t11);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t t13 = vmulq_f64(e, f);
+			const float64x2_t t14 = vfmaq_f64(t12, t8, t13);
+			const float64x2_t t15 = vmulq_f64(x0, y1);
+			const float64x2_t t16 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t15, t16);
+			acc0 = vfmaq_f64(acc0, s, t14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t b = vaddq_f64(y0, y1);
 			const float64x2_t f = vsubq_f64(y1, y0);
@@ -1234,25 +1822,45 @@ EW_ATTRIBUTE_NEON void ew_ring_x1y5_neon(
 /* integral of x^0 y^6; scheme horner.
  * Cost per item: 13 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 8. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y6_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vaddq_f64(y0, y1);
+			const float64x2_t t3 = vmulq_f64(y1, y1);
+			const float64x2_t t4 = vfmaq_f64(t3, t2, y0);
+			const float64x2_t t5 = vmulq_f64(t3, y1);
+			const float64x2_t t6 = vfmaq_f64(t5, t4, y0);
+			const float64x2_t t7 = vmulq_f64(t5, y1);
+			const float64x2_t t8 = vfmaq_f64(t7, t6, y0);
+			const float64x2_t t9 = vmulq_f64(t7, y1);
+			const float64x2_t t10 = vfmaq_f64(t9, t8, y0);
+			const float64x2_t t11 = vmulq_f64(t10, y0);
+			const float64x2_t t12 = vfmaq_f64(t11, t9, y1);
+			acc0 = vfmaq_f64(acc0, s, t12);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -1277,25 +1885,47 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y6_neon(
 /* integral of x^7 y^0; scheme horner.
  * Cost per item: 15 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 9. */
 EW_ATTRIBUTE_NEON void ew_ring_x7y0_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vaddq_f64(x0, x1);
+			const float64x2_t t3 = vmulq_f64(x1, x1);
+			const float64x2_t t4 = vfmaq_f64(t3, t2, x0);
+			const float64x2_t t5 = vmulq_f64(t3, x1);
+			const float64x2_t t6 = vfmaq_f64(t5, t4, x0);
+			const float64x2_t t7 = vmulq_f64(t5, x1);
+			const float64x2_t t8 = vfmaq_f64(t7, t6, x0);
+			const float64x2_t t9 = vmulq_f64(t7, x1);
+			const float64x2_t t10 = vfmaq_f64(t9, t8, x0);
+			const float64x2_t t11 = vmulq_f64(t9, x1);
+			const float64x2_t t12 = vfmaq_f64(t11, t10, x0);
+			const float64x2_t t13 = vmulq_f64(t12, x0);
+			const float64x2_t t14 = vfmaq_f64(t13, t11, x1);
+			acc0 = vfmaq_f64(acc0, s, t14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -1322,25 +1952,65 @@ EW_ATTRIBUTE_NEON void ew_ring_x7y0_neon(
 /* integral of x^6 y^1; scheme matrix.
  * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_NEON void ew_ring_x6y1_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, x0);
+			const float64x2_t t1 = vmulq_f64(t0, t0);
+			const float64x2_t t2 = vmulq_f64(x0, x1);
+			const float64x2_t t3 = vmulq_f64(t2, t1);
+			const float64x2_t t4 = vmulq_f64(t0, x0);
+			const float64x2_t t5 = vmulq_f64(t4, t4);
+			const float64x2_t t6 = vfmaq_f64(t5, vdupq_n_f64(2.0), t3);
+			const float64x2_t t7 = vmulq_f64(t2, t2);
+			const float64x2_t t8 = vmulq_f64(t0, t7);
+			const float64x2_t t9 = vfmaq_f64(t6, vdupq_n_f64(3.0), t8);
+			const float64x2_t t10 = vmulq_f64(t2, t7);
+			const float64x2_t t11 = vmulq_f64(vdupq_n_f64(4.0), t10);
+			const float64x2_t t12 = vaddq_f64(t11, t9);
+			const float64x2_t t13 = vmulq_f64(x1, x1);
+			const float64x2_t t14 = vmulq_f64(t7, t13);
+			const float64x2_t t15 = vfmaq_f64(t12, vdupq_n_f64(5.0), t14);
+			const float64x2_t t16 = vmulq_f64(t13, t13);
+			const float64x2_t t17 = vmulq_f64(t2, t16);
+			const float64x2_t t18 = vfmaq_f64(t15, vdupq_n_f64(6.0), t17);
+			const float64x2_t t19 = vmulq_f64(t13, x1);
+			const float64x2_t t20 = vmulq_f64(t19, t19);
+			const float64x2_t t21 = vfmaq_f64(t18, vdupq_n_f64(7.0), t20);
+			const float64x2_t t22 = vmulq_f64(vdupq_n_f64(7.0), t5);
+			const float64x2_t t23 = vfmaq_f64(t22, vdupq_n_f64(6.0), t3);
+			const float64x2_t t24 = vfmaq_f64(t23, vdupq_n_f64(5.0), t8);
+			const float64x2_t t25 = vaddq_f64(t24, t11);
+			const float64x2_t t26 = vfmaq_f64(t25, vdupq_n_f64(3.0), t14);
+			const float64x2_t t27 = vfmaq_f64(t26, vdupq_n_f64(2.0), t17);
+			const float64x2_t t28 = vaddq_f64(t27, t20);
+			const float64x2_t t29 = vmulq_f64(t28, y0);
+			const float64x2_t t30 = vfmaq_f64(t29, t21, y1);
+			const float64x2_t t31 = vmulq_f64(x0, y1);
+			const float64x2_t t32 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t31, t32);
+			acc0 = vfmaq_f64(acc0, s, t30);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, x0);
 			const float64x2_t t1 = vmulq_f64(t0, t0);
@@ -1385,25 +2055,74 @@ EW_ATTRIBUTE_NEON void ew_ring_x6y1_neon(
 /* integral of x^5 y^2; scheme matrix.
  * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_NEON void ew_ring_x5y2_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vmulq_f64(x0, x0);
+			const float64x2_t t3 = vmulq_f64(t2, x0);
+			const float64x2_t t4 = vmulq_f64(t2, t3);
+			const float64x2_t t5 = vmulq_f64(vdupq_n_f64(3.5), t4);
+			const float64x2_t t6 = vmulq_f64(x0, x1);
+			const float64x2_t t7 = vmulq_f64(t3, t6);
+			const float64x2_t t8 = vfmaq_f64(t5, vdupq_n_f64(2.5), t7);
+			const float64x2_t t9 = vmulq_f64(t6, t6);
+			const float64x2_t t10 = vmulq_f64(t9, x0);
+			const float64x2_t t11 = vfmaq_f64(t8,
+				vdupq_n_f64(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t10);
+			const float64x2_t t12 = vmulq_f64(t9, x1);
+			const float64x2_t t13 = vaddq_f64(t11, t12);
+			const float64x2_t t14 = vmulq_f64(x1, x1);
+			const float64x2_t t15 = vmulq_f64(t14, x1);
+			const float64x2_t t16 = vmulq_f64(t6, t15);
+			const float64x2_t t17 = vfmaq_f64(t13, vdupq_n_f64(0.5), t16);
+			const float64x2_t t18 = vmulq_f64(t14, t15);
+			const float64x2_t t19 = vfmaq_f64(t17,
+				vdupq_n_f64(0x1.5555555555555p-3 /* 1/6 */), t18);
+			const float64x2_t t20 = vmulq_f64(y0, y0);
+			const float64x2_t t21 = vmulq_f64(t19, t20);
+			const float64x2_t t22 = vfmaq_f64(t4,
+				vdupq_n_f64(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t7);
+			const float64x2_t t23 = vfmaq_f64(t22, vdupq_n_f64(2.0), t10);
+			const float64x2_t t24 = vfmaq_f64(t23, vdupq_n_f64(2.0), t12);
+			const float64x2_t t25 = vfmaq_f64(t24,
+				vdupq_n_f64(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t16);
+			const float64x2_t t26 = vaddq_f64(t18, t25);
+			const float64x2_t t27 = vmulq_f64(y0, y1);
+			const float64x2_t t28 = vfmaq_f64(t21, t26, t27);
+			const float64x2_t t29 = vmulq_f64(vdupq_n_f64(0x1.5555555555555p-3 /* 1/6 */), t4);
+			const float64x2_t t30 = vfmaq_f64(t29, vdupq_n_f64(0.5), t7);
+			const float64x2_t t31 = vaddq_f64(t10, t30);
+			const float64x2_t t32 = vfmaq_f64(t31,
+				vdupq_n_f64(0x1.aaaaaaaaaaaabp0 /* 5/3 */), t12);
+			const float64x2_t t33 = vfmaq_f64(t32, vdupq_n_f64(2.5), t16);
+			const float64x2_t t34 = vfmaq_f64(t33, vdupq_n_f64(3.5), t18);
+			const float64x2_t t35 = vmulq_f64(y1, y1);
+			const float64x2_t t36 = vfmaq_f64(t28, t34, t35);
+			acc0 = vfmaq_f64(acc0, s, t36);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -1457,25 +2176,78 @@ EW_ATTRIBUTE_NEON void ew_ring_x5y2_neon(
 /* integral of x^4 y^3; scheme matrix.
  * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_NEON void ew_ring_x4y3_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vmulq_f64(x0, x0);
+			const float64x2_t t3 = vmulq_f64(t2, t2);
+			const float64x2_t t4 = vmulq_f64(x0, x1);
+			const float64x2_t t5 = vmulq_f64(t2, t4);
+			const float64x2_t t6 = vfmaq_f64(t5, vdupq_n_f64(1.75), t3);
+			const float64x2_t t7 = vmulq_f64(t4, t4);
+			const float64x2_t t8 = vmulq_f64(vdupq_n_f64(0.5), t7);
+			const float64x2_t t9 = vaddq_f64(t6, t8);
+			const float64x2_t t10 = vmulq_f64(x1, x1);
+			const float64x2_t t11 = vmulq_f64(t4, t10);
+			const float64x2_t t12 = vfmaq_f64(t9,
+				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t11);
+			const float64x2_t t13 = vmulq_f64(t10, t10);
+			const float64x2_t t14 = vfmaq_f64(t12,
+				vdupq_n_f64(0x1.999999999999ap-5 /* 1/20 */), t13);
+			const float64x2_t t15 = vmulq_f64(y0, y0);
+			const float64x2_t t16 = vmulq_f64(t15, y0);
+			const float64x2_t t17 = vmulq_f64(t14, t16);
+			const float64x2_t t18 = vfmaq_f64(t5, vdupq_n_f64(0.75), t3);
+			const float64x2_t t19 = vmulq_f64(vdupq_n_f64(0x1.ccccccccccccdp-1 /* 9/10 */), t7);
+			const float64x2_t t20 = vaddq_f64(t18, t19);
+			const float64x2_t t21 = vfmaq_f64(t20,
+				vdupq_n_f64(0x1.3333333333333p-1 /* 3/5 */), t11);
+			const float64x2_t t22 = vfmaq_f64(t21, vdupq_n_f64(0.25), t13);
+			const float64x2_t t23 = vmulq_f64(y0, y1);
+			const float64x2_t t24 = vmulq_f64(t23, y0);
+			const float64x2_t t25 = vfmaq_f64(t17, t22, t24);
+			const float64x2_t t26 = vmulq_f64(vdupq_n_f64(0.25), t3);
+			const float64x2_t t27 = vfmaq_f64(t26,
+				vdupq_n_f64(0x1.3333333333333p-1 /* 3/5 */), t5);
+			const float64x2_t t28 = vaddq_f64(t19, t27);
+			const float64x2_t t29 = vaddq_f64(t11, t28);
+			const float64x2_t t30 = vfmaq_f64(t29, vdupq_n_f64(0.75), t13);
+			const float64x2_t t31 = vmulq_f64(t23, y1);
+			const float64x2_t t32 = vfmaq_f64(t25, t30, t31);
+			const float64x2_t t33 = vmulq_f64(vdupq_n_f64(0x1.999999999999ap-5 /* 1/20 */), t3);
+			const float64x2_t t34 = vfmaq_f64(t33,
+				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t5);
+			const float64x2_t t35 = vaddq_f64(t8, t34);
+			const float64x2_t t36 = vaddq_f64(t11, t35);
+			const float64x2_t t37 = vfmaq_f64(t36, vdupq_n_f64(1.75), t13);
+			const float64x2_t t38 = vmulq_f64(y1, y1);
+			const float64x2_t t39 = vmulq_f64(t38, y1);
+			const float64x2_t t40 = vfmaq_f64(t32, t37, t39);
+			acc0 = vfmaq_f64(acc0, s, t40);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -1533,25 +2305,78 @@ EW_ATTRIBUTE_NEON void ew_ring_x4y3_neon(
 /* integral of x^3 y^4; scheme matrix.
  * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_NEON void ew_ring_x3y4_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vmulq_f64(y0, y0);
+			const float64x2_t t3 = vmulq_f64(t2, t2);
+			const float64x2_t t4 = vmulq_f64(y0, y1);
+			const float64x2_t t5 = vmulq_f64(t2, t4);
+			const float64x2_t t6 = vfmaq_f64(t5, vdupq_n_f64(1.75), t3);
+			const float64x2_t t7 = vmulq_f64(t4, t4);
+			const float64x2_t t8 = vmulq_f64(vdupq_n_f64(0.5), t7);
+			const float64x2_t t9 = vaddq_f64(t6, t8);
+			const float64x2_t t10 = vmulq_f64(y1, y1);
+			const float64x2_t t11 = vmulq_f64(t4, t10);
+			const float64x2_t t12 = vfmaq_f64(t9,
+				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t11);
+			const float64x2_t t13 = vmulq_f64(t10, t10);
+			const float64x2_t t14 = vfmaq_f64(t12,
+				vdupq_n_f64(0x1.999999999999ap-5 /* 1/20 */), t13);
+			const float64x2_t t15 = vmulq_f64(x0, x0);
+			const float64x2_t t16 = vmulq_f64(t15, x0);
+			const float64x2_t t17 = vmulq_f64(t14, t16);
+			const float64x2_t t18 = vfmaq_f64(t5, vdupq_n_f64(0.75), t3);
+			const float64x2_t t19 = vmulq_f64(vdupq_n_f64(0x1.ccccccccccccdp-1 /* 9/10 */), t7);
+			const float64x2_t t20 = vaddq_f64(t18, t19);
+			const float64x2_t t21 = vfmaq_f64(t20,
+				vdupq_n_f64(0x1.3333333333333p-1 /* 3/5 */), t11);
+			const float64x2_t t22 = vfmaq_f64(t21, vdupq_n_f64(0.25), t13);
+			const float64x2_t t23 = vmulq_f64(x0, x1);
+			const float64x2_t t24 = vmulq_f64(t23, x0);
+			const float64x2_t t25 = vfmaq_f64(t17, t22, t24);
+			const float64x2_t t26 = vmulq_f64(vdupq_n_f64(0.25), t3);
+			const float64x2_t t27 = vfmaq_f64(t26,
+				vdupq_n_f64(0x1.3333333333333p-1 /* 3/5 */), t5);
+			const float64x2_t t28 = vaddq_f64(t19, t27);
+			const float64x2_t t29 = vaddq_f64(t11, t28);
+			const float64x2_t t30 = vfmaq_f64(t29, vdupq_n_f64(0.75), t13);
+			const float64x2_t t31 = vmulq_f64(t23, x1);
+			const float64x2_t t32 = vfmaq_f64(t25, t30, t31);
+			const float64x2_t t33 = vmulq_f64(vdupq_n_f64(0x1.999999999999ap-5 /* 1/20 */), t3);
+			const float64x2_t t34 = vfmaq_f64(t33,
+				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t5);
+			const float64x2_t t35 = vaddq_f64(t8, t34);
+			const float64x2_t t36 = vaddq_f64(t11, t35);
+			const float64x2_t t37 = vfmaq_f64(t36, vdupq_n_f64(1.75), t13);
+			const float64x2_t t38 = vmulq_f64(x1, x1);
+			const float64x2_t t39 = vmulq_f64(t38, x1);
+			const float64x2_t t40 = vfmaq_f64(t32, t37, t39);
+			acc0 = vfmaq_f64(acc0, s, t40);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -1609,25 +2434,79 @@ EW_ATTRIBUTE_NEON void ew_ring_x3y4_neon(
 /* integral of x^2 y^5; scheme matrix.
  * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_NEON void ew_ring_x2y5_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vmulq_f64(y0, y0);
+			const float64x2_t t3 = vmulq_f64(t2, y0);
+			const float64x2_t t4 = vmulq_f64(t2, t3);
+			const float64x2_t t5 = vmulq_f64(vdupq_n_f64(0x1.0cccccccccccdp1 /* 21/10 */), t4);
+			const float64x2_t t6 = vmulq_f64(y0, y1);
+			const float64x2_t t7 = vmulq_f64(t3, t6);
+			const float64x2_t t8 = vfmaq_f64(t5, vdupq_n_f64(1.5), t7);
+			const float64x2_t t9 = vmulq_f64(t6, t6);
+			const float64x2_t t10 = vmulq_f64(t9, y0);
+			const float64x2_t t11 = vaddq_f64(t8, t10);
+			const float64x2_t t12 = vmulq_f64(t9, y1);
+			const float64x2_t t13 = vfmaq_f64(t11,
+				vdupq_n_f64(0x1.3333333333333p-1 /* 3/5 */), t12);
+			const float64x2_t t14 = vmulq_f64(y1, y1);
+			const float64x2_t t15 = vmulq_f64(t14, y1);
+			const float64x2_t t16 = vmulq_f64(t6, t15);
+			const float64x2_t t17 = vfmaq_f64(t13,
+				vdupq_n_f64(0x1.3333333333333p-2 /* 3/10 */), t16);
+			const float64x2_t t18 = vmulq_f64(t14, t15);
+			const float64x2_t t19 = vfmaq_f64(t17,
+				vdupq_n_f64(0x1.999999999999ap-4 /* 1/10 */), t18);
+			const float64x2_t t20 = vmulq_f64(x0, x0);
+			const float64x2_t t21 = vmulq_f64(t19, t20);
+			const float64x2_t t22 = vfmaq_f64(t7,
+				vdupq_n_f64(0x1.3333333333333p-1 /* 3/5 */), t4);
+			const float64x2_t t23 = vfmaq_f64(t22,
+				vdupq_n_f64(0x1.3333333333333p0 /* 6/5 */), t10);
+			const float64x2_t t24 = vfmaq_f64(t23,
+				vdupq_n_f64(0x1.3333333333333p0 /* 6/5 */), t12);
+			const float64x2_t t25 = vaddq_f64(t16, t24);
+			const float64x2_t t26 = vfmaq_f64(t25,
+				vdupq_n_f64(0x1.3333333333333p-1 /* 3/5 */), t18);
+			const float64x2_t t27 = vmulq_f64(x0, x1);
+			const float64x2_t t28 = vfmaq_f64(t21, t26, t27);
+			const float64x2_t t29 = vmulq_f64(vdupq_n_f64(0x1.999999999999ap-4 /* 1/10 */), t4);
+			const float64x2_t t30 = vfmaq_f64(t29,
+				vdupq_n_f64(0x1.3333333333333p-2 /* 3/10 */), t7);
+			const float64x2_t t31 = vfmaq_f64(t30,
+				vdupq_n_f64(0x1.3333333333333p-1 /* 3/5 */), t10);
+			const float64x2_t t32 = vaddq_f64(t12, t31);
+			const float64x2_t t33 = vfmaq_f64(t32, vdupq_n_f64(1.5), t16);
+			const float64x2_t t34 = vfmaq_f64(t33,
+				vdupq_n_f64(0x1.0cccccccccccdp1 /* 21/10 */), t18);
+			const float64x2_t t35 = vmulq_f64(x1, x1);
+			const float64x2_t t36 = vfmaq_f64(t28, t34, t35);
+			acc0 = vfmaq_f64(acc0, s, t36);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -1686,25 +2565,65 @@ EW_ATTRIBUTE_NEON void ew_ring_x2y5_neon(
 /* integral of x^1 y^6; scheme matrix.
  * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_NEON void ew_ring_x1y6_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(y0, y0);
+			const float64x2_t t1 = vmulq_f64(t0, t0);
+			const float64x2_t t2 = vmulq_f64(y0, y1);
+			const float64x2_t t3 = vmulq_f64(t2, t1);
+			const float64x2_t t4 = vmulq_f64(t0, y0);
+			const float64x2_t t5 = vmulq_f64(t4, t4);
+			const float64x2_t t6 = vfmaq_f64(t5, vdupq_n_f64(2.0), t3);
+			const float64x2_t t7 = vmulq_f64(t2, t2);
+			const float64x2_t t8 = vmulq_f64(t0, t7);
+			const float64x2_t t9 = vfmaq_f64(t6, vdupq_n_f64(3.0), t8);
+			const float64x2_t t10 = vmulq_f64(t2, t7);
+			const float64x2_t t11 = vmulq_f64(vdupq_n_f64(4.0), t10);
+			const float64x2_t t12 = vaddq_f64(t11, t9);
+			const float64x2_t t13 = vmulq_f64(y1, y1);
+			const float64x2_t t14 = vmulq_f64(t7, t13);
+			const float64x2_t t15 = vfmaq_f64(t12, vdupq_n_f64(5.0), t14);
+			const float64x2_t t16 = vmulq_f64(t13, t13);
+			const float64x2_t t17 = vmulq_f64(t2, t16);
+			const float64x2_t t18 = vfmaq_f64(t15, vdupq_n_f64(6.0), t17);
+			const float64x2_t t19 = vmulq_f64(t13, y1);
+			const float64x2_t t20 = vmulq_f64(t19, t19);
+			const float64x2_t t21 = vfmaq_f64(t18, vdupq_n_f64(7.0), t20);
+			const float64x2_t t22 = vmulq_f64(vdupq_n_f64(7.0), t5);
+			const float64x2_t t23 = vfmaq_f64(t22, vdupq_n_f64(6.0), t3);
+			const float64x2_t t24 = vfmaq_f64(t23, vdupq_n_f64(5.0), t8);
+			const float64x2_t t25 = vaddq_f64(t24, t11);
+			const float64x2_t t26 = vfmaq_f64(t25, vdupq_n_f64(3.0), t14);
+			const float64x2_t t27 = vfmaq_f64(t26, vdupq_n_f64(2.0), t17);
+			const float64x2_t t28 = vaddq_f64(t27, t20);
+			const float64x2_t t29 = vmulq_f64(t28, x0);
+			const float64x2_t t30 = vfmaq_f64(t29, t21, x1);
+			const float64x2_t t31 = vmulq_f64(x0, y1);
+			const float64x2_t t32 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t31, t32);
+			acc0 = vfmaq_f64(acc0, s, t30);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(y0, y0);
 			const float64x2_t t1 = vmulq_f64(t0, t0);
@@ -1749,25 +2668,47 @@ EW_ATTRIBUTE_NEON void ew_ring_x1y6_neon(
 /* integral of x^0 y^7; scheme horner.
  * Cost per item: 15 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 9. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y7_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t t2 = vaddq_f64(y0, y1);
+			const float64x2_t t3 = vmulq_f64(y1, y1);
+			const float64x2_t t4 = vfmaq_f64(t3, t2, y0);
+			const float64x2_t t5 = vmulq_f64(t3, y1);
+			const float64x2_t t6 = vfmaq_f64(t5, t4, y0);
+			const float64x2_t t7 = vmulq_f64(t5, y1);
+			const float64x2_t t8 = vfmaq_f64(t7, t6, y0);
+			const float64x2_t t9 = vmulq_f64(t7, y1);
+			const float64x2_t t10 = vfmaq_f64(t9, t8, y0);
+			const float64x2_t t11 = vmulq_f64(t9, y1);
+			const float64x2_t t12 = vfmaq_f64(t11, t10, y0);
+			const float64x2_t t13 = vmulq_f64(t12, y0);
+			const float64x2_t t14 = vfmaq_f64(t13, t11, y1);
+			acc0 = vfmaq_f64(acc0, s, t14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -1794,26 +2735,18 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y7_neon(
 /* integral of x^8 y^0; scheme horner.
  * Cost per item: 17 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 10. */
 EW_ATTRIBUTE_NEON void ew_ring_x8y0_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
-			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
-			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
-			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
-			const float64x2_t y1 = vld1q_f64(at_y1);
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
 			const float64x2_t s = vsubq_f64(t0, t1);
@@ -1834,626 +2767,36 @@ EW_ATTRIBUTE_NEON void ew_ring_x8y0_neon(
 			const float64x2_t t16 = vfmaq_f64(t15, t13, x1);
 			acc0 = vfmaq_f64(acc0, s, t16);
 		}
-		vst1q_f64(sum + pass, acc0);
-	}
-}
-
-/* integral of x^7 y^1; scheme matrix.
- * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
-EW_ATTRIBUTE_NEON void ew_ring_x7y1_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
-		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
-			const float64x2_t y1 = vld1q_f64(at_y1);
-			const float64x2_t t0 = vmulq_f64(x0, x0);
-			const float64x2_t t1 = vmulq_f64(t0, x0);
-			const float64x2_t t2 = vmulq_f64(t0, t1);
-			const float64x2_t t3 = vmulq_f64(x0, x1);
-			const float64x2_t t4 = vmulq_f64(t3, t2);
-			const float64x2_t t5 = vmulq_f64(t0, t0);
-			const float64x2_t t6 = vmulq_f64(t1, t5);
-			const float64x2_t t7 = vfmaq_f64(t6, vdupq_n_f64(2.0), t4);
-			const float64x2_t t8 = vmulq_f64(t3, t3);
-			const float64x2_t t9 = vmulq_f64(t1, t8);
-			const float64x2_t t10 = vfmaq_f64(t7, vdupq_n_f64(3.0), t9);
-			const float64x2_t t11 = vmulq_f64(t3, t8);
-			const float64x2_t t12 = vmulq_f64(t11, x0);
-			const float64x2_t t13 = vfmaq_f64(t10, vdupq_n_f64(4.0), t12);
-			const float64x2_t t14 = vmulq_f64(t11, x1);
-			const float64x2_t t15 = vfmaq_f64(t13, vdupq_n_f64(5.0), t14);
-			const float64x2_t t16 = vmulq_f64(x1, x1);
-			const float64x2_t t17 = vmulq_f64(t16, x1);
-			const float64x2_t t18 = vmulq_f64(t8, t17);
-			const float64x2_t t19 = vfmaq_f64(t15, vdupq_n_f64(6.0), t18);
-			const float64x2_t t20 = vmulq_f64(t16, t17);
-			const float64x2_t t21 = vmulq_f64(t3, t20);
-			const float64x2_t t22 = vfmaq_f64(t19, vdupq_n_f64(7.0), t21);
-			const float64x2_t t23 = vmulq_f64(t16, t16);
-			const float64x2_t t24 = vmulq_f64(t17, t23);
-			const float64x2_t t25 = vfmaq_f64(t22, vdupq_n_f64(8.0), t24);
-			const float64x2_t t26 = vmulq_f64(vdupq_n_f64(8.0), t6);
-			const float64x2_t t27 = vfmaq_f64(t26, vdupq_n_f64(7.0), t4);
-			const float64x2_t t28 = vfmaq_f64(t27, vdupq_n_f64(6.0), t9);
-			const float64x2_t t29 = vfmaq_f64(t28, vdupq_n_f64(5.0), t12);
-			const float64x2_t t30 = vfmaq_f64(t29, vdupq_n_f64(4.0), t14);
-			const float64x2_t t31 = vfmaq_f64(t30, vdupq_n_f64(3.0), t18);
-			const float64x2_t t32 = vfmaq_f64(t31, vdupq_n_f64(2.0), t21);
-			const float64x2_t t33 = vaddq_f64(t32, t24);
-			const float64x2_t t34 = vmulq_f64(t33, y0);
-			const float64x2_t t35 = vfmaq_f64(t34, t25, y1);
-			const float64x2_t t36 = vmulq_f64(x0, y1);
-			const float64x2_t t37 = vmulq_f64(x1, y0);
-			const float64x2_t s = vsubq_f64(t36, t37);
-			acc0 = vfmaq_f64(acc0, s, t35);
-		}
-		vst1q_f64(sum + pass, acc0);
-	}
-}
-
-/* integral of x^6 y^2; scheme matrix.
- * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
-EW_ATTRIBUTE_NEON void ew_ring_x6y2_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
-		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
-			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
-			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
-			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
-			const float64x2_t y1 = vld1q_f64(at_y1);
-			const float64x2_t t0 = vmulq_f64(x0, x0);
-			const float64x2_t t1 = vmulq_f64(t0, t0);
-			const float64x2_t t2 = vmulq_f64(x0, x1);
-			const float64x2_t t3 = vmulq_f64(t2, t1);
-			const float64x2_t t4 = vmulq_f64(t0, x0);
-			const float64x2_t t5 = vmulq_f64(t4, t4);
-			const float64x2_t t6 = vmulq_f64(vdupq_n_f64(0x1.ddddddddddddep-2 /* 7/15 */), t5);
-			const float64x2_t t7 = vfmaq_f64(t6,
-				vdupq_n_f64(0x1.999999999999ap-1 /* 4/5 */), t3);
-			const float64x2_t t8 = vmulq_f64(t2, t2);
-			const float64x2_t t9 = vmulq_f64(t0, t8);
-			const float64x2_t t10 = vaddq_f64(t9, t7);
-			const float64x2_t t11 = vmulq_f64(t2, t8);
-			const float64x2_t t12 = vfmaq_f64(t10,
-				vdupq_n_f64(0x1.1111111111111p0 /* 16/15 */), t11);
-			const float64x2_t t13 = vmulq_f64(x1, x1);
-			const float64x2_t t14 = vmulq_f64(t8, t13);
-			const float64x2_t t15 = vaddq_f64(t14, t12);
-			const float64x2_t t16 = vmulq_f64(t13, t13);
-			const float64x2_t t17 = vmulq_f64(t2, t16);
-			const float64x2_t t18 = vfmaq_f64(t15,
-				vdupq_n_f64(0x1.999999999999ap-1 /* 4/5 */), t17);
-			const float64x2_t t19 = vmulq_f64(t13, x1);
-			const float64x2_t t20 = vmulq_f64(t19, t19);
-			const float64x2_t t21 = vfmaq_f64(t18,
-				vdupq_n_f64(0x1.ddddddddddddep-2 /* 7/15 */), t20);
-			const float64x2_t t22 = vmulq_f64(vdupq_n_f64(0x1.ddddddddddddep0 /* 28/15 */), t5);
-			const float64x2_t t23 = vfmaq_f64(t22,
-				vdupq_n_f64(0x1.6666666666666p0 /* 7/5 */), t3);
-			const float64x2_t t24 = vaddq_f64(t23, t9);
-			const float64x2_t t25 = vmulq_f64(vdupq_n_f64(0x1.5555555555555p-1 /* 2/3 */), t11);
-			const float64x2_t t26 = vaddq_f64(t24, t25);
-			const float64x2_t t27 = vfmaq_f64(t26,
-				vdupq_n_f64(0x1.999999999999ap-2 /* 2/5 */), t14);
-			const float64x2_t t28 = vfmaq_f64(t27,
-				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t17);
-			const float64x2_t t29 = vfmaq_f64(t28,
-				vdupq_n_f64(0x1.1111111111111p-4 /* 1/15 */), t20);
-			const float64x2_t t30 = vmulq_f64(y0, y0);
-			const float64x2_t t31 = vmulq_f64(t29, t30);
-			const float64x2_t t32 = vmulq_f64(y0, y1);
-			const float64x2_t t33 = vfmaq_f64(t31, t21, t32);
-			const float64x2_t t34 = vmulq_f64(vdupq_n_f64(0x1.1111111111111p-4 /* 1/15 */), t5);
-			const float64x2_t t35 = vfmaq_f64(t34,
-				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t3);
-			const float64x2_t t36 = vfmaq_f64(t35,
-				vdupq_n_f64(0x1.999999999999ap-2 /* 2/5 */), t9);
-			const float64x2_t t37 = vaddq_f64(t25, t36);
-			const float64x2_t t38 = vaddq_f64(t14, t37);
-			const float64x2_t t39 = vfmaq_f64(t38,
-				vdupq_n_f64(0x1.6666666666666p0 /* 7/5 */), t17);
-			const float64x2_t t40 = vfmaq_f64(t39,
-				vdupq_n_f64(0x1.ddddddddddddep0 /* 28/15 */), t20);
-			const float64x2_t t41 = vmulq_f64(y1, y1);
-			const float64x2_t t42 = vfmaq_f64(t33, t40, t41);
-			const float64x2_t t43 = vmulq_f64(x0, y1);
-			const float64x2_t t44 = vmulq_f64(x1, y0);
-			const float64x2_t s = vsubq_f64(t43, t44);
-			acc0 = vfmaq_f64(acc0, s, t42);
-		}
-		vst1q_f64(sum + pass, acc0);
-	}
-}
-
-/* integral of x^5 y^3; scheme matrix.
- * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
-EW_ATTRIBUTE_NEON void ew_ring_x5y3_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
-		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
-			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
-			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
-			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
 			const float64x2_t s = vsubq_f64(t0, t1);
-			const float64x2_t t2 = vmulq_f64(x0, x0);
-			const float64x2_t t3 = vmulq_f64(t2, x0);
-			const float64x2_t t4 = vmulq_f64(t2, t3);
-			const float64x2_t t5 = vmulq_f64(vdupq_n_f64(0x1.ddddddddddddep0 /* 28/15 */), t4);
-			const float64x2_t t6 = vmulq_f64(x0, x1);
-			const float64x2_t t7 = vmulq_f64(t3, t6);
-			const float64x2_t t8 = vfmaq_f64(t5,
-				vdupq_n_f64(0x1.2aaaaaaaaaaabp0 /* 7/6 */), t7);
-			const float64x2_t t9 = vmulq_f64(t6, t6);
-			const float64x2_t t10 = vmulq_f64(t9, x0);
-			const float64x2_t t11 = vfmaq_f64(t8,
-				vdupq_n_f64(0x1.5555555555555p-1 /* 2/3 */), t10);
-			const float64x2_t t12 = vmulq_f64(t9, x1);
-			const float64x2_t t13 = vfmaq_f64(t11,
-				vdupq_n_f64(0x1.5555555555555p-2 /* 1/3 */), t12);
-			const float64x2_t t14 = vmulq_f64(x1, x1);
-			const float64x2_t t15 = vmulq_f64(t14, x1);
-			const float64x2_t t16 = vmulq_f64(t6, t15);
-			const float64x2_t t17 = vfmaq_f64(t13,
-				vdupq_n_f64(0x1.1111111111111p-3 /* 2/15 */), t16);
-			const float64x2_t t18 = vmulq_f64(t14, t15);
-			const float64x2_t t19 = vfmaq_f64(t17,
-				vdupq_n_f64(0x1.1111111111111p-5 /* 1/30 */), t18);
-			const float64x2_t t20 = vmulq_f64(y0, y0);
-			const float64x2_t t21 = vmulq_f64(t20, y0);
-			const float64x2_t t22 = vmulq_f64(t19, t21);
-			const float64x2_t t23 = vfmaq_f64(t7,
-				vdupq_n_f64(0x1.6666666666666p-1 /* 7/10 */), t4);
-			const float64x2_t t24 = vaddq_f64(t10, t23);
-			const float64x2_t t25 = vfmaq_f64(t24,
-				vdupq_n_f64(0x1.999999999999ap-1 /* 4/5 */), t12);
-			const float64x2_t t26 = vfmaq_f64(t25, vdupq_n_f64(0.5), t16);
-			const float64x2_t t27 = vfmaq_f64(t26,
-				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t18);
-			const float64x2_t t28 = vmulq_f64(y0, y1);
-			const float64x2_t t29 = vmulq_f64(t28, y0);
-			const float64x2_t t30 = vfmaq_f64(t22, t27, t29);
-			const float64x2_t t31 = vmulq_f64(vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t4);
-			const float64x2_t t32 = vfmaq_f64(t31, vdupq_n_f64(0.5), t7);
-			const float64x2_t t33 = vfmaq_f64(t32,
-				vdupq_n_f64(0x1.999999999999ap-1 /* 4/5 */), t10);
-			const float64x2_t t34 = vaddq_f64(t12, t33);
-			const float64x2_t t35 = vaddq_f64(t16, t34);
-			const float64x2_t t36 = vfmaq_f64(t35,
-				vdupq_n_f64(0x1.6666666666666p-1 /* 7/10 */), t18);
-			const float64x2_t t37 = vmulq_f64(t28, y1);
-			const float64x2_t t38 = vfmaq_f64(t30, t36, t37);
-			const float64x2_t t39 = vmulq_f64(vdupq_n_f64(0x1.1111111111111p-5 /* 1/30 */), t4);
-			const float64x2_t t40 = vfmaq_f64(t39,
-				vdupq_n_f64(0x1.1111111111111p-3 /* 2/15 */), t7);
-			const float64x2_t t41 = vfmaq_f64(t40,
-				vdupq_n_f64(0x1.5555555555555p-2 /* 1/3 */), t10);
-			const float64x2_t t42 = vfmaq_f64(t41,
-				vdupq_n_f64(0x1.5555555555555p-1 /* 2/3 */), t12);
-			const float64x2_t t43 = vfmaq_f64(t42,
-				vdupq_n_f64(0x1.2aaaaaaaaaaabp0 /* 7/6 */), t16);
-			const float64x2_t t44 = vfmaq_f64(t43,
-				vdupq_n_f64(0x1.ddddddddddddep0 /* 28/15 */), t18);
-			const float64x2_t t45 = vmulq_f64(y1, y1);
-			const float64x2_t t46 = vmulq_f64(t45, y1);
-			const float64x2_t t47 = vfmaq_f64(t38, t44, t46);
-			acc0 = vfmaq_f64(acc0, s, t47);
-		}
-		vst1q_f64(sum + pass, acc0);
-	}
-}
-
-/* integral of x^4 y^4; scheme matrix.
- * Cost per item: 45 mul or fma, 6 add; 1 accumulators, 14 values alive, depth 13. */
-EW_ATTRIBUTE_NEON void ew_ring_x4y4_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
-		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
-			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
-			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
-			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
-			const float64x2_t y1 = vld1q_f64(at_y1);
-			const float64x2_t t0 = vmulq_f64(x0, y1);
-			const float64x2_t t1 = vmulq_f64(x1, y0);
-			const float64x2_t s = vsubq_f64(t0, t1);
-			const float64x2_t t2 = vmulq_f64(y0, y0);
-			const float64x2_t t3 = vmulq_f64(t2, t2);
-			const float64x2_t t4 = vmulq_f64(vdupq_n_f64(70.0), t3);
-			const float64x2_t t5 = vmulq_f64(y0, y1);
-			const float64x2_t t6 = vmulq_f64(t2, t5);
-			const float64x2_t t7 = vfmaq_f64(t4, vdupq_n_f64(35.0), t6);
-			const float64x2_t t8 = vmulq_f64(t5, t5);
-			const float64x2_t t9 = vmulq_f64(vdupq_n_f64(15.0), t8);
-			const float64x2_t t10 = vaddq_f64(t7, t9);
-			const float64x2_t t11 = vmulq_f64(y1, y1);
-			const float64x2_t t12 = vmulq_f64(t5, t11);
-			const float64x2_t t13 = vfmaq_f64(t10, vdupq_n_f64(5.0), t12);
-			const float64x2_t t14 = vmulq_f64(t11, t11);
-			const float64x2_t t15 = vaddq_f64(t13, t14);
-			const float64x2_t t16 = vmulq_f64(x0, x0);
-			const float64x2_t t17 = vmulq_f64(t16, t16);
-			const float64x2_t t18 = vmulq_f64(t15, t17);
-			const float64x2_t t19 = vmulq_f64(vdupq_n_f64(35.0), t3);
-			const float64x2_t t20 = vfmaq_f64(t19, vdupq_n_f64(40.0), t6);
-			const float64x2_t t21 = vmulq_f64(vdupq_n_f64(30.0), t8);
-			const float64x2_t t22 = vaddq_f64(t20, t21);
-			const float64x2_t t23 = vfmaq_f64(t22, vdupq_n_f64(16.0), t12);
-			const float64x2_t t24 = vfmaq_f64(t23, vdupq_n_f64(5.0), t14);
-			const float64x2_t t25 = vmulq_f64(x0, x1);
-			const float64x2_t t26 = vmulq_f64(t16, t25);
-			const float64x2_t t27 = vfmaq_f64(t18, t24, t26);
-			const float64x2_t t28 = vmulq_f64(vdupq_n_f64(15.0), t3);
-			const float64x2_t t29 = vfmaq_f64(t28, vdupq_n_f64(30.0), t6);
-			const float64x2_t t30 = vfmaq_f64(t29, vdupq_n_f64(36.0), t8);
-			const float64x2_t t31 = vfmaq_f64(t30, vdupq_n_f64(30.0), t12);
-			const float64x2_t t32 = vfmaq_f64(t31, vdupq_n_f64(15.0), t14);
-			const float64x2_t t33 = vmulq_f64(t25, t25);
-			const float64x2_t t34 = vfmaq_f64(t27, t32, t33);
-			const float64x2_t t35 = vmulq_f64(vdupq_n_f64(5.0), t3);
-			const float64x2_t t36 = vfmaq_f64(t35, vdupq_n_f64(16.0), t6);
-			const float64x2_t t37 = vaddq_f64(t21, t36);
-			const float64x2_t t38 = vfmaq_f64(t37, vdupq_n_f64(40.0), t12);
-			const float64x2_t t39 = vfmaq_f64(t38, vdupq_n_f64(35.0), t14);
-			const float64x2_t t40 = vmulq_f64(x1, x1);
-			const float64x2_t t41 = vmulq_f64(t25, t40);
-			const float64x2_t t42 = vfmaq_f64(t34, t39, t41);
-			const float64x2_t t43 = vfmaq_f64(t3, vdupq_n_f64(5.0), t6);
-			const float64x2_t t44 = vaddq_f64(t9, t43);
-			const float64x2_t t45 = vfmaq_f64(t44, vdupq_n_f64(35.0), t12);
-			const float64x2_t t46 = vfmaq_f64(t45, vdupq_n_f64(70.0), t14);
-			const float64x2_t t47 = vmulq_f64(t40, t40);
-			const float64x2_t t48 = vfmaq_f64(t42, t46, t47);
-			acc0 = vfmaq_f64(acc0, s, t48);
-		}
-		vst1q_f64(sum + pass, acc0);
-	}
-}
-
-/* integral of x^3 y^5; scheme matrix.
- * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
-EW_ATTRIBUTE_NEON void ew_ring_x3y5_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
-		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
-			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
-			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
-			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
-			const float64x2_t y1 = vld1q_f64(at_y1);
-			const float64x2_t t0 = vmulq_f64(x0, y1);
-			const float64x2_t t1 = vmulq_f64(x1, y0);
-			const float64x2_t s = vsubq_f64(t0, t1);
-			const float64x2_t t2 = vmulq_f64(y0, y0);
-			const float64x2_t t3 = vmulq_f64(t2, y0);
-			const float64x2_t t4 = vmulq_f64(t2, t3);
-			const float64x2_t t5 = vmulq_f64(vdupq_n_f64(0x1.ddddddddddddep0 /* 28/15 */), t4);
-			const float64x2_t t6 = vmulq_f64(y0, y1);
-			const float64x2_t t7 = vmulq_f64(t3, t6);
-			const float64x2_t t8 = vfmaq_f64(t5,
-				vdupq_n_f64(0x1.2aaaaaaaaaaabp0 /* 7/6 */), t7);
-			const float64x2_t t9 = vmulq_f64(t6, t6);
-			const float64x2_t t10 = vmulq_f64(t9, y0);
-			const float64x2_t t11 = vfmaq_f64(t8,
-				vdupq_n_f64(0x1.5555555555555p-1 /* 2/3 */), t10);
-			const float64x2_t t12 = vmulq_f64(t9, y1);
-			const float64x2_t t13 = vfmaq_f64(t11,
-				vdupq_n_f64(0x1.5555555555555p-2 /* 1/3 */), t12);
-			const float64x2_t t14 = vmulq_f64(y1, y1);
-			const float64x2_t t15 = vmulq_f64(t14, y1);
-			const float64x2_t t16 = vmulq_f64(t6, t15);
-			const float64x2_t t17 = vfmaq_f64(t13,
-				vdupq_n_f64(0x1.1111111111111p-3 /* 2/15 */), t16);
-			const float64x2_t t18 = vmulq_f64(t14, t15);
-			const float64x2_t t19 = vfmaq_f64(t17,
-				vdupq_n_f64(0x1.1111111111111p-5 /* 1/30 */), t18);
-			const float64x2_t t20 = vmulq_f64(x0, x0);
-			const float64x2_t t21 = vmulq_f64(t20, x0);
-			const float64x2_t t22 = vmulq_f64(t19, t21);
-			const float64x2_t t23 = vfmaq_f64(t7,
-				vdupq_n_f64(0x1.6666666666666p-1 /* 7/10 */), t4);
-			const float64x2_t t24 = vaddq_f64(t10, t23);
-			const float64x2_t t25 = vfmaq_f64(t24,
-				vdupq_n_f64(0x1.999999999999ap-1 /* 4/5 */), t12);
-			const float64x2_t t26 = vfmaq_f64(t25, vdupq_n_f64(0.5), t16);
-			const float64x2_t t27 = vfmaq_f64(t26,
-				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t18);
-			const float64x2_t t28 = vmulq_f64(x0, x1);
-			const float64x2_t t29 = vmulq_f64(t28, x0);
-			const float64x2_t t30 = vfmaq_f64(t22, t27, t29);
-			const float64x2_t t31 = vmulq_f64(vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t4);
-			const float64x2_t t32 = vfmaq_f64(t31, vdupq_n_f64(0.5), t7);
-			const float64x2_t t33 = vfmaq_f64(t32,
-				vdupq_n_f64(0x1.999999999999ap-1 /* 4/5 */), t10);
-			const float64x2_t t34 = vaddq_f64(t12, t33);
-			const float64x2_t t35 = vaddq_f64(t16, t34);
-			const float64x2_t t36 = vfmaq_f64(t35,
-				vdupq_n_f64(0x1.6666666666666p-1 /* 7/10 */), t18);
-			const float64x2_t t37 = vmulq_f64(t28, x1);
-			const float64x2_t t38 = vfmaq_f64(t30, t36, t37);
-			const float64x2_t t39 = vmulq_f64(vdupq_n_f64(0x1.1111111111111p-5 /* 1/30 */), t4);
-			const float64x2_t t40 = vfmaq_f64(t39,
-				vdupq_n_f64(0x1.1111111111111p-3 /* 2/15 */), t7);
-			const float64x2_t t41 = vfmaq_f64(t40,
-				vdupq_n_f64(0x1.5555555555555p-2 /* 1/3 */), t10);
-			const float64x2_t t42 = vfmaq_f64(t41,
-				vdupq_n_f64(0x1.5555555555555p-1 /* 2/3 */), t12);
-			const float64x2_t t43 = vfmaq_f64(t42,
-				vdupq_n_f64(0x1.2aaaaaaaaaaabp0 /* 7/6 */), t16);
-			const float64x2_t t44 = vfmaq_f64(t43,
-				vdupq_n_f64(0x1.ddddddddddddep0 /* 28/15 */), t18);
-			const float64x2_t t45 = vmulq_f64(x1, x1);
-			const float64x2_t t46 = vmulq_f64(t45, x1);
-			const float64x2_t t47 = vfmaq_f64(t38, t44, t46);
-			acc0 = vfmaq_f64(acc0, s, t47);
-		}
-		vst1q_f64(sum + pass, acc0);
-	}
-}
-
-/* integral of x^2 y^6; scheme matrix.
- * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
-EW_ATTRIBUTE_NEON void ew_ring_x2y6_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
-		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
-			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
-			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
-			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
-			const float64x2_t y1 = vld1q_f64(at_y1);
-			const float64x2_t t0 = vmulq_f64(y0, y0);
-			const float64x2_t t1 = vmulq_f64(t0, t0);
-			const float64x2_t t2 = vmulq_f64(y0, y1);
-			const float64x2_t t3 = vmulq_f64(t2, t1);
-			const float64x2_t t4 = vmulq_f64(t0, y0);
-			const float64x2_t t5 = vmulq_f64(t4, t4);
-			const float64x2_t t6 = vmulq_f64(vdupq_n_f64(0x1.ddddddddddddep-2 /* 7/15 */), t5);
-			const float64x2_t t7 = vfmaq_f64(t6,
-				vdupq_n_f64(0x1.999999999999ap-1 /* 4/5 */), t3);
-			const float64x2_t t8 = vmulq_f64(t2, t2);
-			const float64x2_t t9 = vmulq_f64(t0, t8);
-			const float64x2_t t10 = vaddq_f64(t9, t7);
-			const float64x2_t t11 = vmulq_f64(t2, t8);
-			const float64x2_t t12 = vfmaq_f64(t10,
-				vdupq_n_f64(0x1.1111111111111p0 /* 16/15 */), t11);
-			const float64x2_t t13 = vmulq_f64(y1, y1);
-			const float64x2_t t14 = vmulq_f64(t8, t13);
-			const float64x2_t t15 = vaddq_f64(t14, t12);
-			const float64x2_t t16 = vmulq_f64(t13, t13);
-			const float64x2_t t17 = vmulq_f64(t2, t16);
-			const float64x2_t t18 = vfmaq_f64(t15,
-				vdupq_n_f64(0x1.999999999999ap-1 /* 4/5 */), t17);
-			const float64x2_t t19 = vmulq_f64(t13, y1);
-			const float64x2_t t20 = vmulq_f64(t19, t19);
-			const float64x2_t t21 = vfmaq_f64(t18,
-				vdupq_n_f64(0x1.ddddddddddddep-2 /* 7/15 */), t20);
-			const float64x2_t t22 = vmulq_f64(vdupq_n_f64(0x1.ddddddddddddep0 /* 28/15 */), t5);
-			const float64x2_t t23 = vfmaq_f64(t22,
-				vdupq_n_f64(0x1.6666666666666p0 /* 7/5 */), t3);
-			const float64x2_t t24 = vaddq_f64(t23, t9);
-			const float64x2_t t25 = vmulq_f64(vdupq_n_f64(0x1.5555555555555p-1 /* 2/3 */), t11);
-			const float64x2_t t26 = vaddq_f64(t24, t25);
-			const float64x2_t t27 = vfmaq_f64(t26,
-				vdupq_n_f64(0x1.999999999999ap-2 /* 2/5 */), t14);
-			const float64x2_t t28 = vfmaq_f64(t27,
-				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t17);
-			const float64x2_t t29 = vfmaq_f64(t28,
-				vdupq_n_f64(0x1.1111111111111p-4 /* 1/15 */), t20);
-			const float64x2_t t30 = vmulq_f64(x0, x0);
-			const float64x2_t t31 = vmulq_f64(t29, t30);
-			const float64x2_t t32 = vmulq_f64(x0, x1);
-			const float64x2_t t33 = vfmaq_f64(t31, t21, t32);
-			const float64x2_t t34 = vmulq_f64(vdupq_n_f64(0x1.1111111111111p-4 /* 1/15 */), t5);
-			const float64x2_t t35 = vfmaq_f64(t34,
-				vdupq_n_f64(0x1.999999999999ap-3 /* 1/5 */), t3);
-			const float64x2_t t36 = vfmaq_f64(t35,
-				vdupq_n_f64(0x1.999999999999ap-2 /* 2/5 */), t9);
-			const float64x2_t t37 = vaddq_f64(t25, t36);
-			const float64x2_t t38 = vaddq_f64(t14, t37);
-			const float64x2_t t39 = vfmaq_f64(t38,
-				vdupq_n_f64(0x1.6666666666666p0 /* 7/5 */), t17);
-			const float64x2_t t40 = vfmaq_f64(t39,
-				vdupq_n_f64(0x1.ddddddddddddep0 /* 28/15 */), t20);
-			const float64x2_t t41 = vmulq_f64(x1, x1);
-			const float64x2_t t42 = vfmaq_f64(t33, t40, t41);
-			const float64x2_t t43 = vmulq_f64(x0, y1);
-			const float64x2_t t44 = vmulq_f64(x1, y0);
-			const float64x2_t s = vsubq_f64(t43, t44);
-			acc0 = vfmaq_f64(acc0, s, t42);
-		}
-		vst1q_f64(sum + pass, acc0);
-	}
-}
-
-/* integral of x^1 y^7; scheme matrix.
- * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
-EW_ATTRIBUTE_NEON void ew_ring_x1y7_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
-		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
-			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
-			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
-			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
-			const float64x2_t y1 = vld1q_f64(at_y1);
-			const float64x2_t t0 = vmulq_f64(y0, y0);
-			const float64x2_t t1 = vmulq_f64(t0, y0);
-			const float64x2_t t2 = vmulq_f64(t0, t1);
-			const float64x2_t t3 = vmulq_f64(y0, y1);
-			const float64x2_t t4 = vmulq_f64(t3, t2);
-			const float64x2_t t5 = vmulq_f64(t0, t0);
-			const float64x2_t t6 = vmulq_f64(t1, t5);
-			const float64x2_t t7 = vfmaq_f64(t6, vdupq_n_f64(2.0), t4);
-			const float64x2_t t8 = vmulq_f64(t3, t3);
-			const float64x2_t t9 = vmulq_f64(t1, t8);
-			const float64x2_t t10 = vfmaq_f64(t7, vdupq_n_f64(3.0), t9);
-			const float64x2_t t11 = vmulq_f64(t3, t8);
-			const float64x2_t t12 = vmulq_f64(t11, y0);
-			const float64x2_t t13 = vfmaq_f64(t10, vdupq_n_f64(4.0), t12);
-			const float64x2_t t14 = vmulq_f64(t11, y1);
-			const float64x2_t t15 = vfmaq_f64(t13, vdupq_n_f64(5.0), t14);
-			const float64x2_t t16 = vmulq_f64(y1, y1);
-			const float64x2_t t17 = vmulq_f64(t16, y1);
-			const float64x2_t t18 = vmulq_f64(t8, t17);
-			const float64x2_t t19 = vfmaq_f64(t15, vdupq_n_f64(6.0), t18);
-			const float64x2_t t20 = vmulq_f64(t16, t17);
-			const float64x2_t t21 = vmulq_f64(t3, t20);
-			const float64x2_t t22 = vfmaq_f64(t19, vdupq_n_f64(7.0), t21);
-			const float64x2_t t23 = vmulq_f64(t16, t16);
-			const float64x2_t t24 = vmulq_f64(t17, t23);
-			const float64x2_t t25 = vfmaq_f64(t22, vdupq_n_f64(8.0), t24);
-			const float64x2_t t26 = vmulq_f64(vdupq_n_f64(8.0), t6);
-			const float64x2_t t27 = vfmaq_f64(t26, vdupq_n_f64(7.0), t4);
-			const float64x2_t t28 = vfmaq_f64(t27, vdupq_n_f64(6.0), t9);
-			const float64x2_t t29 = vfmaq_f64(t28, vdupq_n_f64(5.0), t12);
-			const float64x2_t t30 = vfmaq_f64(t29, vdupq_n_f64(4.0), t14);
-			const float64x2_t t31 = vfmaq_f64(t30, vdupq_n_f64(3.0), t18);
-			const float64x2_t t32 = vfmaq_f64(t31, vdupq_n_f64(2.0), t21);
-			const float64x2_t t33 = vaddq_f64(t32, t24);
-			const float64x2_t t34 = vmulq_f64(t33, x0);
-			const float64x2_t t35 = vfmaq_f64(t34, t25, x1);
-			const float64x2_t t36 = vmulq_f64(x0, y1);
-			const float64x2_t t37 = vmulq_f64(x1, y0);
-			const float64x2_t s = vsubq_f64(t36, t37);
-			acc0 = vfmaq_f64(acc0, s, t35);
-		}
-		vst1q_f64(sum + pass, acc0);
-	}
-}
-
-/* integral of x^0 y^8; scheme horner.
- * Cost per item: 17 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 10. */
-EW_ATTRIBUTE_NEON void ew_ring_x0y8_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
-		float64x2_t acc0 = vld1q_f64(sum + pass);
-		for (size_t i = pass; i < count; i += 8) {
-			const size_t rest = count - i;
-			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
-			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
-			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
-			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
-			const float64x2_t y1 = vld1q_f64(at_y1);
-			const float64x2_t t0 = vmulq_f64(x0, y1);
-			const float64x2_t t1 = vmulq_f64(x1, y0);
-			const float64x2_t s = vsubq_f64(t0, t1);
-			const float64x2_t t2 = vaddq_f64(y0, y1);
-			const float64x2_t t3 = vmulq_f64(y1, y1);
-			const float64x2_t t4 = vfmaq_f64(t3, t2, y0);
-			const float64x2_t t5 = vmulq_f64(t3, y1);
-			const float64x2_t t6 = vfmaq_f64(t5, t4, y0);
-			const float64x2_t t7 = vmulq_f64(t5, y1);
-			const float64x2_t t8 = vfmaq_f64(t7, t6, y0);
-			const float64x2_t t9 = vmulq_f64(t7, y1);
-			const float64x2_t t10 = vfmaq_f64(t9, t8, y0);
-			const float64x2_t t11 = vmulq_f64(t9, y1);
-			const float64x2_t t12 = vfmaq_f64(t11, t10, y0);
-			const float64x2_t t13 = vmulq_f64(t11, y1);
-			const float64x2_t t14 = vfmaq_f64(t13, t12, y0);
-			const float64x2_t t15 = vmulq_f64(t14, y0);
-			const float64x2_t t16 = vfmaq_f64(t15, t13, y1);
+			const float64x2_t t2 = vaddq_f64(x0, x1);
+			const float64x2_t t3 = vmulq_f64(x1, x1);
+			const float64x2_t t4 = vfmaq_f64(t3, t2, x0);
+			const float64x2_t t5 = vmulq_f64(t3, x1);
+			const float64x2_t t6 = vfmaq_f64(t5, t4, x0);
+			const float64x2_t t7 = vmulq_f64(t5, x1);
+			const float64x2_t t8 = vfmaq_f64(t7, t6, x0);
+			const float64x2_t t9 = vmulq_f64(t7, x1);
+			const float64x2_t t10 = vfmaq_f64(t9, t8, x0);
+			const float64x2_t t11 = vmulq_f64(t9, x1);
+			const float64x2_t t12 = vfmaq_f64(t11, t10, x0);
+			const float64x2_t t13 = vmulq_f64(t11, x1);
+			const float64x2_t t14 = vfmaq_f64(t13, t12, x0);
+			const float64x2_t t15 = vmulq_f64(t14, x0);
+			const float64x2_t t16 = vfmaq_f64(t15, t13, x1);
 			acc0 = vfmaq_f64(acc0, s, t16);
 		}
 		vst1q_f64(sum + pass, acc0);

@@ -9,28 +9,32 @@
 #include "edgewise.h"
 #include "edgewise_kernels.h"
 
+#include <math.h>
+
 /* area; scheme vertex.
  * Cost per item: 1 mul, 3 add; 2 accumulators, 4 values alive, depth 3. */
 void ew_ring_x0y0_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
+		const double cx = origin[lane];
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += 2 * step) {
 			{
 				const double y0 = y[i];
-				const double x1 = x[i + 1];
-				const double y2 = y[i + 2];
+				const double x1 = x[i + reach];
+				const double y2 = y[i + 2 * reach];
 				const double width = x1 - cx;
 				const double height = y2 - y0;
 				const double t0 = width * height;
 				acc0 = acc0 + t0;
 			}
-			if (count - i > 8) {
-				const double y0 = y[i + 8];
-				const double x1 = x[i + 9];
-				const double y2 = y[i + 10];
+			if (count - i > step) {
+				const double y0 = y[i + step];
+				const double x1 = x[i + step + reach];
+				const double y2 = y[i + step + 2 * reach];
 				const double width = x1 - cx;
 				const double height = y2 - y0;
 				const double t0 = width * height;
@@ -45,16 +49,17 @@ void ew_ring_x0y0_portable(
 /* integral of x^1 y^0; scheme matrix.
  * Cost per item: 3 mul, 3 add; 1 accumulators, 5 values alive, depth 4. */
 void ew_ring_x1y0_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -69,16 +74,17 @@ void ew_ring_x1y0_portable(
 /* integral of x^0 y^1; scheme matrix.
  * Cost per item: 3 mul, 3 add; 1 accumulators, 5 values alive, depth 4. */
 void ew_ring_x0y1_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -93,16 +99,17 @@ void ew_ring_x0y1_portable(
 /* integral of x^2 y^0; scheme horner.
  * Cost per item: 5 mul, 4 add; 1 accumulators, 5 values alive, depth 5. */
 void ew_ring_x2y0_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -120,16 +127,17 @@ void ew_ring_x2y0_portable(
 /* integral of x^1 y^1; scheme matrix.
  * Cost per item: 7 mul, 5 add; 1 accumulators, 7 values alive, depth 6. */
 void ew_ring_x1y1_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -150,16 +158,17 @@ void ew_ring_x1y1_portable(
 /* integral of x^0 y^2; scheme horner.
  * Cost per item: 5 mul, 4 add; 1 accumulators, 5 values alive, depth 5. */
 void ew_ring_x0y2_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -177,16 +186,17 @@ void ew_ring_x0y2_portable(
 /* integral of x^3 y^0; scheme even-power.
  * Cost per item: 6 mul, 5 add; 1 accumulators, 5 values alive, depth 6. */
 void ew_ring_x3y0_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -206,16 +216,17 @@ void ew_ring_x3y0_portable(
 /* integral of x^2 y^1; scheme even-power.
  * Cost per item: 10 mul, 8 add; 1 accumulators, 8 values alive, depth 8. */
 void ew_ring_x2y1_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -242,16 +253,17 @@ void ew_ring_x2y1_portable(
 /* integral of x^1 y^2; scheme even-power.
  * Cost per item: 10 mul, 8 add; 1 accumulators, 8 values alive, depth 8. */
 void ew_ring_x1y2_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -278,16 +290,17 @@ void ew_ring_x1y2_portable(
 /* integral of x^0 y^3; scheme even-power.
  * Cost per item: 6 mul, 5 add; 1 accumulators, 5 values alive, depth 6. */
 void ew_ring_x0y3_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -307,16 +320,17 @@ void ew_ring_x0y3_portable(
 /* integral of x^4 y^0; scheme horner.
  * Cost per item: 9 mul, 6 add; 1 accumulators, 6 values alive, depth 9. */
 void ew_ring_x4y0_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -340,16 +354,17 @@ void ew_ring_x4y0_portable(
 /* integral of x^3 y^1; scheme even-power.
  * Cost per item: 10 mul, 9 add; 1 accumulators, 9 values alive, depth 8. */
 void ew_ring_x3y1_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -377,16 +392,17 @@ void ew_ring_x3y1_portable(
 /* integral of x^2 y^2; scheme even-power.
  * Cost per item: 15 mul, 10 add; 1 accumulators, 10 values alive, depth 9. */
 void ew_ring_x2y2_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -420,16 +436,17 @@ void ew_ring_x2y2_portable(
 /* integral of x^1 y^3; scheme even-power.
  * Cost per item: 10 mul, 9 add; 1 accumulators, 9 values alive, depth 8. */
 void ew_ring_x1y3_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -457,16 +474,17 @@ void ew_ring_x1y3_portable(
 /* integral of x^0 y^4; scheme horner.
  * Cost per item: 9 mul, 6 add; 1 accumulators, 6 values alive, depth 9. */
 void ew_ring_x0y4_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -490,16 +508,17 @@ void ew_ring_x0y4_portable(
 /* integral of x^5 y^0; scheme horner.
  * Cost per item: 11 mul, 7 add; 1 accumulators, 6 values alive, depth 11. */
 void ew_ring_x5y0_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -526,16 +545,17 @@ void ew_ring_x5y0_portable(
 /* integral of x^4 y^1; scheme even-power.
  * Cost per item: 16 mul, 10 add; 1 accumulators, 9 values alive, depth 10. */
 void ew_ring_x4y1_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -570,16 +590,17 @@ void ew_ring_x4y1_portable(
 /* integral of x^3 y^2; scheme even-power.
  * Cost per item: 18 mul, 11 add; 1 accumulators, 11 values alive, depth 9. */
 void ew_ring_x3y2_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -617,16 +638,17 @@ void ew_ring_x3y2_portable(
 /* integral of x^2 y^3; scheme even-power.
  * Cost per item: 18 mul, 11 add; 1 accumulators, 11 values alive, depth 9. */
 void ew_ring_x2y3_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -664,16 +686,17 @@ void ew_ring_x2y3_portable(
 /* integral of x^1 y^4; scheme even-power.
  * Cost per item: 16 mul, 10 add; 1 accumulators, 9 values alive, depth 10. */
 void ew_ring_x1y4_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -708,16 +731,17 @@ void ew_ring_x1y4_portable(
 /* integral of x^0 y^5; scheme horner.
  * Cost per item: 11 mul, 7 add; 1 accumulators, 6 values alive, depth 11. */
 void ew_ring_x0y5_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -744,16 +768,17 @@ void ew_ring_x0y5_portable(
 /* integral of x^6 y^0; scheme horner.
  * Cost per item: 13 mul, 8 add; 1 accumulators, 6 values alive, depth 13. */
 void ew_ring_x6y0_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -783,16 +808,17 @@ void ew_ring_x6y0_portable(
 /* integral of x^5 y^1; scheme even-power.
  * Cost per item: 17 mul, 11 add; 1 accumulators, 10 values alive, depth 10. */
 void ew_ring_x5y1_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -829,16 +855,17 @@ void ew_ring_x5y1_portable(
 /* integral of x^4 y^2; scheme even-power.
  * Cost per item: 23 mul, 13 add; 1 accumulators, 12 values alive, depth 11. */
 void ew_ring_x4y2_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -883,16 +910,17 @@ void ew_ring_x4y2_portable(
 /* integral of x^3 y^3; scheme even-power.
  * Cost per item: 25 mul, 13 add; 1 accumulators, 12 values alive, depth 10. */
 void ew_ring_x3y3_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -939,16 +967,17 @@ void ew_ring_x3y3_portable(
 /* integral of x^2 y^4; scheme even-power.
  * Cost per item: 23 mul, 13 add; 1 accumulators, 12 values alive, depth 11. */
 void ew_ring_x2y4_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -993,16 +1022,17 @@ void ew_ring_x2y4_portable(
 /* integral of x^1 y^5; scheme even-power.
  * Cost per item: 17 mul, 11 add; 1 accumulators, 10 values alive, depth 10. */
 void ew_ring_x1y5_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1039,16 +1069,17 @@ void ew_ring_x1y5_portable(
 /* integral of x^0 y^6; scheme horner.
  * Cost per item: 13 mul, 8 add; 1 accumulators, 6 values alive, depth 13. */
 void ew_ring_x0y6_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1078,16 +1109,17 @@ void ew_ring_x0y6_portable(
 /* integral of x^7 y^0; scheme horner.
  * Cost per item: 15 mul, 9 add; 1 accumulators, 6 values alive, depth 15. */
 void ew_ring_x7y0_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1120,16 +1152,17 @@ void ew_ring_x7y0_portable(
 /* integral of x^6 y^1; scheme matrix.
  * Cost per item: 31 mul, 15 add; 1 accumulators, 12 values alive, depth 14. */
 void ew_ring_x6y1_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * x0;
 			const double t1 = t0 * x0;
 			const double t2 = t1 * t1;
@@ -1184,16 +1217,17 @@ void ew_ring_x6y1_portable(
 /* integral of x^5 y^2; scheme matrix.
  * Cost per item: 35 mul, 19 add; 1 accumulators, 13 values alive, depth 14. */
 void ew_ring_x5y2_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1256,16 +1290,17 @@ void ew_ring_x5y2_portable(
 /* integral of x^4 y^3; scheme matrix.
  * Cost per item: 36 mul, 21 add; 1 accumulators, 13 values alive, depth 13. */
 void ew_ring_x4y3_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1331,16 +1366,17 @@ void ew_ring_x4y3_portable(
 /* integral of x^3 y^4; scheme matrix.
  * Cost per item: 36 mul, 21 add; 1 accumulators, 13 values alive, depth 13. */
 void ew_ring_x3y4_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1406,16 +1442,17 @@ void ew_ring_x3y4_portable(
 /* integral of x^2 y^5; scheme matrix.
  * Cost per item: 35 mul, 19 add; 1 accumulators, 13 values alive, depth 14. */
 void ew_ring_x2y5_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1478,16 +1515,17 @@ void ew_ring_x2y5_portable(
 /* integral of x^1 y^6; scheme matrix.
  * Cost per item: 31 mul, 15 add; 1 accumulators, 12 values alive, depth 14. */
 void ew_ring_x1y6_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = y0 * y0;
 			const double t1 = t0 * y0;
 			const double t2 = t1 * t1;
@@ -1542,16 +1580,17 @@ void ew_ring_x1y6_portable(
 /* integral of x^0 y^7; scheme horner.
  * Cost per item: 15 mul, 9 add; 1 accumulators, 6 values alive, depth 15. */
 void ew_ring_x0y7_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1584,16 +1623,17 @@ void ew_ring_x0y7_portable(
 /* integral of x^8 y^0; scheme horner.
  * Cost per item: 17 mul, 10 add; 1 accumulators, 6 values alive, depth 17. */
 void ew_ring_x8y0_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1629,16 +1669,17 @@ void ew_ring_x8y0_portable(
 /* integral of x^7 y^1; scheme matrix.
  * Cost per item: 38 mul, 17 add; 1 accumulators, 14 values alive, depth 16. */
 void ew_ring_x7y1_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * x0;
 			const double t1 = t0 * t0;
 			const double t2 = t0 * x0;
@@ -1702,16 +1743,17 @@ void ew_ring_x7y1_portable(
 /* integral of x^6 y^2; scheme matrix.
  * Cost per item: 40 mul, 22 add; 1 accumulators, 15 values alive, depth 15. */
 void ew_ring_x6y2_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * x0;
 			const double t1 = t0 * x0;
 			const double t2 = t1 * t1;
@@ -1782,16 +1824,17 @@ void ew_ring_x6y2_portable(
 /* integral of x^5 y^3; scheme matrix.
  * Cost per item: 46 mul, 25 add; 1 accumulators, 13 values alive, depth 15. */
 void ew_ring_x5y3_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1871,16 +1914,17 @@ void ew_ring_x5y3_portable(
 /* integral of x^4 y^4; scheme matrix.
  * Cost per item: 45 mul, 26 add; 1 accumulators, 15 values alive, depth 14. */
 void ew_ring_x4y4_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1960,16 +2004,17 @@ void ew_ring_x4y4_portable(
 /* integral of x^3 y^5; scheme matrix.
  * Cost per item: 46 mul, 25 add; 1 accumulators, 13 values alive, depth 15. */
 void ew_ring_x3y5_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -2049,16 +2094,17 @@ void ew_ring_x3y5_portable(
 /* integral of x^2 y^6; scheme matrix.
  * Cost per item: 40 mul, 22 add; 1 accumulators, 15 values alive, depth 15. */
 void ew_ring_x2y6_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = y0 * y0;
 			const double t1 = t0 * y0;
 			const double t2 = t1 * t1;
@@ -2129,16 +2175,17 @@ void ew_ring_x2y6_portable(
 /* integral of x^1 y^7; scheme matrix.
  * Cost per item: 38 mul, 17 add; 1 accumulators, 14 values alive, depth 16. */
 void ew_ring_x1y7_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = y0 * y0;
 			const double t1 = t0 * t0;
 			const double t2 = t0 * y0;
@@ -2202,16 +2249,17 @@ void ew_ring_x1y7_portable(
 /* integral of x^0 y^8; scheme horner.
  * Cost per item: 17 mul, 10 add; 1 accumulators, 6 values alive, depth 17. */
 void ew_ring_x0y8_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;

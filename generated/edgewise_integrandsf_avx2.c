@@ -16,40 +16,62 @@
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y0f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	const __m256 cx = _mm256_set1_ps(origin);
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
+		const __m256 cx = _mm256_loadu_ps(origin + pass);
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
 		__m256 acc1 = _mm256_loadu_ps(sum + 16 + pass);
-		for (size_t i = pass; i < count; i += 32) {
+		size_t i = pass;
+		for (; i + step + 7 < count; i += 2 * step) {
+			{
+				__m256 y0 = _mm256_loadu_ps(y + i);
+				EW_KEEP(y0);
+				__m256 x1 = _mm256_loadu_ps(x + i + reach);
+				EW_KEEP(x1);
+				__m256 y2 = _mm256_loadu_ps(y + i + 2 * reach);
+				EW_KEEP(y2);
+				const __m256 width = _mm256_sub_ps(x1, cx);
+				const __m256 height = _mm256_sub_ps(y2, y0);
+				acc0 = _mm256_fmadd_ps(width, height, acc0);
+			}
+			{
+				__m256 y0 = _mm256_loadu_ps(y + i + step);
+				EW_KEEP(y0);
+				__m256 x1 = _mm256_loadu_ps(x + i + step + reach);
+				EW_KEEP(x1);
+				__m256 y2 = _mm256_loadu_ps(y + i + step + 2 * reach);
+				EW_KEEP(y2);
+				const __m256 width = _mm256_sub_ps(x1, cx);
+				const __m256 height = _mm256_sub_ps(y2, y0);
+				acc1 = _mm256_fmadd_ps(width, height, acc1);
+			}
+		}
+		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
 				float pad[4][8];
-				const float *at_y0 = rest < 8
-					? ew_ring_padf(pad[0], y + i, rest, 8) : y + i;
+				int at = 0;
+				const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 				const __m256 y0 = _mm256_loadu_ps(at_y0);
-				const float *at_x1 = rest < 8
-					? ew_ring_padf(pad[1], x + i + 1, rest, 8) : x + i + 1;
+				const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 				const __m256 x1 = _mm256_loadu_ps(at_x1);
-				const float *at_y2 = rest < 8
-					? ew_ring_padf(pad[2], y + i + 2, rest, 8) : y + i + 2;
+				const float *at_y2 = ew_ring_padf(pad[at++], y + i + 2 * reach, rest, 8);
 				const __m256 y2 = _mm256_loadu_ps(at_y2);
 				const __m256 width = _mm256_sub_ps(x1, cx);
 				const __m256 height = _mm256_sub_ps(y2, y0);
 				acc0 = _mm256_fmadd_ps(width, height, acc0);
 			}
 			{
-				const size_t rest = count - i > 16 ? count - i - 16 : 0;
+				const size_t rest = count - i > step ? count - i - step : 0;
 				float pad[4][8];
-				const float *at_y0 = rest < 8
-					? ew_ring_padf(pad[0], y + i + 16, rest, 8) : y + i + 16;
+				int at = 0;
+				const float *at_y0 = ew_ring_padf(pad[at++], y + i + step, rest, 8);
 				const __m256 y0 = _mm256_loadu_ps(at_y0);
-				const float *at_x1 = rest < 8
-					? ew_ring_padf(pad[1], x + i + 17, rest, 8) : x + i + 17;
+				const float *at_x1 = ew_ring_padf(pad[at++], x + i + step + reach, rest, 8);
 				const __m256 x1 = _mm256_loadu_ps(at_x1);
-				const float *at_y2 = rest < 8
-					? ew_ring_padf(pad[2], y + i + 18, rest, 8) : y + i + 18;
+				const float *at_y2 = ew_ring_padf(pad[at++], y + i + step + 2 * reach, rest, 8);
 				const __m256 y2 = _mm256_loadu_ps(at_y2);
 				const __m256 width = _mm256_sub_ps(x1, cx);
 				const __m256 height = _mm256_sub_ps(y2, y0);
@@ -64,25 +86,39 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y0f_avx2(
 /* integral of x^1 y^0; scheme matrix.
  * Cost per item: 3 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 3. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x1y0f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_add_ps(x0, x1);
+			acc0 = _mm256_fmadd_ps(s, t2, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -97,25 +133,39 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x1y0f_avx2(
 /* integral of x^0 y^1; scheme matrix.
  * Cost per item: 3 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 3. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y1f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_add_ps(y0, y1);
+			acc0 = _mm256_fmadd_ps(s, t2, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -130,25 +180,41 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y1f_avx2(
 /* integral of x^2 y^0; scheme horner.
  * Cost per item: 5 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 4. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x2y0f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_add_ps(x0, x1);
+			const __m256 t3 = _mm256_mul_ps(t2, x0);
+			const __m256 t4 = _mm256_fmadd_ps(x1, x1, t3);
+			acc0 = _mm256_fmadd_ps(s, t4, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -165,25 +231,42 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x2y0f_avx2(
 /* integral of x^1 y^1; scheme matrix.
  * Cost per item: 7 mul or fma, 1 add; 1 accumulators, 7 values alive, depth 4. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x1y1f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), y1, y0);
+			const __m256 t3 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), y0, y1);
+			const __m256 t4 = _mm256_mul_ps(t3, x0);
+			const __m256 t5 = _mm256_fmadd_ps(t2, x1, t4);
+			acc0 = _mm256_fmadd_ps(s, t5, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -201,25 +284,41 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x1y1f_avx2(
 /* integral of x^0 y^2; scheme horner.
  * Cost per item: 5 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 4. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y2f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_add_ps(y0, y1);
+			const __m256 t3 = _mm256_mul_ps(t2, y0);
+			const __m256 t4 = _mm256_fmadd_ps(y1, y1, t3);
+			acc0 = _mm256_fmadd_ps(s, t4, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -236,25 +335,43 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y2f_avx2(
 /* integral of x^3 y^0; scheme even-power.
  * Cost per item: 6 mul or fma, 3 add; 1 accumulators, 5 values alive, depth 5. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x3y0f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 t2 = _mm256_mul_ps(a, a);
+			const __m256 t3 = _mm256_fmadd_ps(e, e, t2);
+			const __m256 t4 = _mm256_mul_ps(a, t3);
+			acc0 = _mm256_fmadd_ps(s, t4, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -273,25 +390,49 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x3y0f_avx2(
 /* integral of x^2 y^1; scheme even-power.
  * Cost per item: 10 mul or fma, 5 add; 1 accumulators, 7 values alive, depth 7. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x2y1f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 t2 = _mm256_mul_ps(a, a);
+			const __m256 t3 = _mm256_mul_ps(_mm256_set1_ps(3.0f), t2);
+			const __m256 t4 = _mm256_fmadd_ps(e, e, t3);
+			const __m256 t5 = _mm256_mul_ps(b, t4);
+			const __m256 t6 = _mm256_mul_ps(a, e);
+			const __m256 t7 = _mm256_mul_ps(f, t6);
+			const __m256 t8 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t7, t5);
+			acc0 = _mm256_fmadd_ps(s, t8, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -316,25 +457,49 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x2y1f_avx2(
 /* integral of x^1 y^2; scheme even-power.
  * Cost per item: 10 mul or fma, 5 add; 1 accumulators, 7 values alive, depth 7. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x1y2f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 t2 = _mm256_mul_ps(b, b);
+			const __m256 t3 = _mm256_mul_ps(_mm256_set1_ps(3.0f), t2);
+			const __m256 t4 = _mm256_fmadd_ps(f, f, t3);
+			const __m256 t5 = _mm256_mul_ps(a, t4);
+			const __m256 t6 = _mm256_mul_ps(b, f);
+			const __m256 t7 = _mm256_mul_ps(e, t6);
+			const __m256 t8 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t7, t5);
+			acc0 = _mm256_fmadd_ps(s, t8, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -359,25 +524,43 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x1y2f_avx2(
 /* integral of x^0 y^3; scheme even-power.
  * Cost per item: 6 mul or fma, 3 add; 1 accumulators, 5 values alive, depth 5. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y3f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 t2 = _mm256_mul_ps(b, b);
+			const __m256 t3 = _mm256_fmadd_ps(f, f, t2);
+			const __m256 t4 = _mm256_mul_ps(b, t3);
+			acc0 = _mm256_fmadd_ps(s, t4, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -396,25 +579,45 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y3f_avx2(
 /* integral of x^4 y^0; scheme horner.
  * Cost per item: 9 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 6. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x4y0f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_add_ps(x0, x1);
+			const __m256 t3 = _mm256_mul_ps(x1, x1);
+			const __m256 t4 = _mm256_fmadd_ps(t2, x0, t3);
+			const __m256 t5 = _mm256_mul_ps(t3, x1);
+			const __m256 t6 = _mm256_fmadd_ps(t4, x0, t5);
+			const __m256 t7 = _mm256_mul_ps(t6, x0);
+			const __m256 t8 = _mm256_fmadd_ps(t5, x1, t7);
+			acc0 = _mm256_fmadd_ps(s, t8, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -435,25 +638,51 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x4y0f_avx2(
 /* integral of x^3 y^1; scheme even-power.
  * Cost per item: 10 mul or fma, 6 add; 1 accumulators, 9 values alive, depth 6. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x3y1f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 t2 = _mm256_mul_ps(a, a);
+			const __m256 t3 = _mm256_mul_ps(e, e);
+			const __m256 t4 = _mm256_add_ps(t2, t3);
+			const __m256 t5 = _mm256_mul_ps(a, b);
+			const __m256 t6 = _mm256_mul_ps(t4, t5);
+			const __m256 t7 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */),
+				t3, t2);
+			const __m256 t8 = _mm256_mul_ps(e, f);
+			const __m256 t9 = _mm256_fmadd_ps(t7, t8, t6);
+			acc0 = _mm256_fmadd_ps(s, t9, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -480,25 +709,54 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x3y1f_avx2(
 /* integral of x^2 y^2; scheme even-power.
  * Cost per item: 15 mul or fma, 5 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x2y2f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 t2 = _mm256_mul_ps(b, b);
+			const __m256 t3 = _mm256_mul_ps(f, f);
+			const __m256 t4 = _mm256_fmadd_ps(_mm256_set1_ps(3.0f), t2, t3);
+			const __m256 t5 = _mm256_mul_ps(a, a);
+			const __m256 t6 = _mm256_mul_ps(t4, t5);
+			const __m256 t7 = _mm256_mul_ps(a, e);
+			const __m256 t8 = _mm256_mul_ps(b, f);
+			const __m256 t9 = _mm256_mul_ps(t7, t8);
+			const __m256 t10 = _mm256_fmadd_ps(_mm256_set1_ps(4.0f), t9, t6);
+			const __m256 t11 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p-1f /* 3/5 */), t3, t2);
+			const __m256 t12 = _mm256_mul_ps(e, e);
+			const __m256 t13 = _mm256_fmadd_ps(t11, t12, t10);
+			acc0 = _mm256_fmadd_ps(s, t13, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -528,25 +786,51 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x2y2f_avx2(
 /* integral of x^1 y^3; scheme even-power.
  * Cost per item: 10 mul or fma, 6 add; 1 accumulators, 9 values alive, depth 6. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x1y3f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 t2 = _mm256_mul_ps(b, b);
+			const __m256 t3 = _mm256_mul_ps(f, f);
+			const __m256 t4 = _mm256_add_ps(t2, t3);
+			const __m256 t5 = _mm256_mul_ps(a, b);
+			const __m256 t6 = _mm256_mul_ps(t4, t5);
+			const __m256 t7 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */),
+				t3, t2);
+			const __m256 t8 = _mm256_mul_ps(e, f);
+			const __m256 t9 = _mm256_fmadd_ps(t7, t8, t6);
+			acc0 = _mm256_fmadd_ps(s, t9, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -573,25 +857,45 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x1y3f_avx2(
 /* integral of x^0 y^4; scheme horner.
  * Cost per item: 9 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 6. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y4f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_add_ps(y0, y1);
+			const __m256 t3 = _mm256_mul_ps(y1, y1);
+			const __m256 t4 = _mm256_fmadd_ps(t2, y0, t3);
+			const __m256 t5 = _mm256_mul_ps(t3, y1);
+			const __m256 t6 = _mm256_fmadd_ps(t4, y0, t5);
+			const __m256 t7 = _mm256_mul_ps(t6, y0);
+			const __m256 t8 = _mm256_fmadd_ps(t5, y1, t7);
+			acc0 = _mm256_fmadd_ps(s, t8, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -612,25 +916,47 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y4f_avx2(
 /* integral of x^5 y^0; scheme horner.
  * Cost per item: 11 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 7. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x5y0f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_add_ps(x0, x1);
+			const __m256 t3 = _mm256_mul_ps(x1, x1);
+			const __m256 t4 = _mm256_fmadd_ps(t2, x0, t3);
+			const __m256 t5 = _mm256_mul_ps(t3, x1);
+			const __m256 t6 = _mm256_fmadd_ps(t4, x0, t5);
+			const __m256 t7 = _mm256_mul_ps(t5, x1);
+			const __m256 t8 = _mm256_fmadd_ps(t6, x0, t7);
+			const __m256 t9 = _mm256_mul_ps(t8, x0);
+			const __m256 t10 = _mm256_fmadd_ps(t7, x1, t9);
+			acc0 = _mm256_fmadd_ps(s, t10, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -653,25 +979,57 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x5y0f_avx2(
 /* integral of x^4 y^1; scheme even-power.
  * Cost per item: 16 mul or fma, 5 add; 1 accumulators, 9 values alive, depth 8. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x4y1f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 t2 = _mm256_mul_ps(a, a);
+			const __m256 t3 = _mm256_mul_ps(t2, t2);
+			const __m256 t4 = _mm256_mul_ps(a, e);
+			const __m256 t5 = _mm256_mul_ps(t4, t4);
+			const __m256 t6 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t5, t3);
+			const __m256 t7 = _mm256_mul_ps(e, e);
+			const __m256 t8 = _mm256_mul_ps(t7, t7);
+			const __m256 t9 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */),
+				t8, t6);
+			const __m256 t10 = _mm256_mul_ps(b, t9);
+			const __m256 t11 = _mm256_mul_ps(_mm256_set1_ps(0x1.555556p0f /* 4/3 */),
+				t2);
+			const __m256 t12 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-1f /* 4/5 */), t7, t11);
+			const __m256 t13 = _mm256_mul_ps(f, t4);
+			const __m256 t14 = _mm256_fmadd_ps(t12, t13, t10);
+			acc0 = _mm256_fmadd_ps(s, t14, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -704,25 +1062,60 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x4y1f_avx2(
 /* integral of x^3 y^2; scheme even-power.
  * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x3y2f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 t2 = _mm256_mul_ps(a, a);
+			const __m256 t3 = _mm256_mul_ps(e, e);
+			const __m256 t4 = _mm256_add_ps(t2, t3);
+			const __m256 t5 = _mm256_mul_ps(b, b);
+			const __m256 t6 = _mm256_mul_ps(a, t5);
+			const __m256 t7 = _mm256_mul_ps(t4, t6);
+			const __m256 t8 = _mm256_mul_ps(_mm256_set1_ps(2.0f), t2);
+			const __m256 t9 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-2f /* 2/5 */),
+				t3, t8);
+			const __m256 t10 = _mm256_mul_ps(b, f);
+			const __m256 t11 = _mm256_mul_ps(e, t10);
+			const __m256 t12 = _mm256_fmadd_ps(t9, t11, t7);
+			const __m256 t13 = _mm256_mul_ps(_mm256_set1_ps(0x1.555556p-2f /* 1/3 */),
+				t2);
+			const __m256 t14 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p-1f /* 3/5 */), t3, t13);
+			const __m256 t15 = _mm256_mul_ps(f, f);
+			const __m256 t16 = _mm256_mul_ps(a, t15);
+			const __m256 t17 = _mm256_fmadd_ps(t14, t16, t12);
+			acc0 = _mm256_fmadd_ps(s, t17, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -758,25 +1151,60 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x3y2f_avx2(
 /* integral of x^2 y^3; scheme even-power.
  * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x2y3f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 t2 = _mm256_mul_ps(b, b);
+			const __m256 t3 = _mm256_mul_ps(f, f);
+			const __m256 t4 = _mm256_add_ps(t2, t3);
+			const __m256 t5 = _mm256_mul_ps(a, a);
+			const __m256 t6 = _mm256_mul_ps(b, t5);
+			const __m256 t7 = _mm256_mul_ps(t4, t6);
+			const __m256 t8 = _mm256_mul_ps(_mm256_set1_ps(2.0f), t2);
+			const __m256 t9 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-2f /* 2/5 */),
+				t3, t8);
+			const __m256 t10 = _mm256_mul_ps(a, e);
+			const __m256 t11 = _mm256_mul_ps(f, t10);
+			const __m256 t12 = _mm256_fmadd_ps(t9, t11, t7);
+			const __m256 t13 = _mm256_mul_ps(_mm256_set1_ps(0x1.555556p-2f /* 1/3 */),
+				t2);
+			const __m256 t14 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p-1f /* 3/5 */), t3, t13);
+			const __m256 t15 = _mm256_mul_ps(e, e);
+			const __m256 t16 = _mm256_mul_ps(b, t15);
+			const __m256 t17 = _mm256_fmadd_ps(t14, t16, t12);
+			acc0 = _mm256_fmadd_ps(s, t17, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -812,25 +1240,57 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x2y3f_avx2(
 /* integral of x^1 y^4; scheme even-power.
  * Cost per item: 16 mul or fma, 5 add; 1 accumulators, 9 values alive, depth 8. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x1y4f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 t2 = _mm256_mul_ps(b, b);
+			const __m256 t3 = _mm256_mul_ps(t2, t2);
+			const __m256 t4 = _mm256_mul_ps(b, f);
+			const __m256 t5 = _mm256_mul_ps(t4, t4);
+			const __m256 t6 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t5, t3);
+			const __m256 t7 = _mm256_mul_ps(f, f);
+			const __m256 t8 = _mm256_mul_ps(t7, t7);
+			const __m256 t9 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */),
+				t8, t6);
+			const __m256 t10 = _mm256_mul_ps(a, t9);
+			const __m256 t11 = _mm256_mul_ps(_mm256_set1_ps(0x1.555556p0f /* 4/3 */),
+				t2);
+			const __m256 t12 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-1f /* 4/5 */), t7, t11);
+			const __m256 t13 = _mm256_mul_ps(e, t4);
+			const __m256 t14 = _mm256_fmadd_ps(t12, t13, t10);
+			acc0 = _mm256_fmadd_ps(s, t14, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -863,25 +1323,47 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x1y4f_avx2(
 /* integral of x^0 y^5; scheme horner.
  * Cost per item: 11 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 7. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y5f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_add_ps(y0, y1);
+			const __m256 t3 = _mm256_mul_ps(y1, y1);
+			const __m256 t4 = _mm256_fmadd_ps(t2, y0, t3);
+			const __m256 t5 = _mm256_mul_ps(t3, y1);
+			const __m256 t6 = _mm256_fmadd_ps(t4, y0, t5);
+			const __m256 t7 = _mm256_mul_ps(t5, y1);
+			const __m256 t8 = _mm256_fmadd_ps(t6, y0, t7);
+			const __m256 t9 = _mm256_mul_ps(t8, y0);
+			const __m256 t10 = _mm256_fmadd_ps(t7, y1, t9);
+			acc0 = _mm256_fmadd_ps(s, t10, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -904,25 +1386,49 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y5f_avx2(
 /* integral of x^6 y^0; scheme horner.
  * Cost per item: 13 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 8. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x6y0f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_add_ps(x0, x1);
+			const __m256 t3 = _mm256_mul_ps(x1, x1);
+			const __m256 t4 = _mm256_fmadd_ps(t2, x0, t3);
+			const __m256 t5 = _mm256_mul_ps(t3, x1);
+			const __m256 t6 = _mm256_fmadd_ps(t4, x0, t5);
+			const __m256 t7 = _mm256_mul_ps(t5, x1);
+			const __m256 t8 = _mm256_fmadd_ps(t6, x0, t7);
+			const __m256 t9 = _mm256_mul_ps(t7, x1);
+			const __m256 t10 = _mm256_fmadd_ps(t8, x0, t9);
+			const __m256 t11 = _mm256_mul_ps(t10, x0);
+			const __m256 t12 = _mm256_fmadd_ps(t9, x1, t11);
+			acc0 = _mm256_fmadd_ps(s, t12, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -947,25 +1453,60 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x6y0f_avx2(
 /* integral of x^5 y^1; scheme even-power.
  * Cost per item: 17 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 8. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x5y1f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 t0 = _mm256_mul_ps(a, e);
+			const __m256 t1 = _mm256_mul_ps(t0, t0);
+			const __m256 t2 = _mm256_mul_ps(a, a);
+			const __m256 t3 = _mm256_mul_ps(t2, t2);
+			const __m256 t4 = _mm256_mul_ps(_mm256_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t3);
+			const __m256 t5 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t1, t4);
+			const __m256 t6 = _mm256_mul_ps(e, e);
+			const __m256 t7 = _mm256_mul_ps(t6, t6);
+			const __m256 t8 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.24924ap-3f /* 1/7 */),
+				t7, t5);
+			const __m256 t9 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.aaaaaap1f /* 10/3 */),
+				t1, t3);
+			const __m256 t10 = _mm256_add_ps(t9, t7);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 t11 = _mm256_mul_ps(a, b);
+			const __m256 t12 = _mm256_mul_ps(t10, t11);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 t13 = _mm256_mul_ps(e, f);
+			const __m256 t14 = _mm256_fmadd_ps(t8, t13, t12);
+			const __m256 t15 = _mm256_mul_ps(x0, y1);
+			const __m256 t16 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t15, t16);
+			acc0 = _mm256_fmadd_ps(s, t14, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 a = _mm256_add_ps(x0, x1);
 			const __m256 e = _mm256_sub_ps(x1, x0);
@@ -1001,25 +1542,67 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x5y1f_avx2(
 /* integral of x^4 y^2; scheme even-power.
  * Cost per item: 23 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x4y2f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 t2 = _mm256_mul_ps(a, a);
+			const __m256 t3 = _mm256_mul_ps(t2, t2);
+			const __m256 t4 = _mm256_mul_ps(a, e);
+			const __m256 t5 = _mm256_mul_ps(t4, t4);
+			const __m256 t6 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t5, t3);
+			const __m256 t7 = _mm256_mul_ps(e, e);
+			const __m256 t8 = _mm256_mul_ps(t7, t7);
+			const __m256 t9 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */),
+				t8, t6);
+			const __m256 t10 = _mm256_mul_ps(b, b);
+			const __m256 t11 = _mm256_mul_ps(t9, t10);
+			const __m256 t12 = _mm256_mul_ps(_mm256_set1_ps(0x1.555556p1f /* 8/3 */),
+				t2);
+			const __m256 t13 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap0f /* 8/5 */),
+				t7, t12);
+			const __m256 t14 = _mm256_mul_ps(b, f);
+			const __m256 t15 = _mm256_mul_ps(t4, t14);
+			const __m256 t16 = _mm256_fmadd_ps(t13, t15, t11);
+			const __m256 t17 = _mm256_mul_ps(_mm256_set1_ps(0x1.555556p-2f /* 1/3 */),
+				t3);
+			const __m256 t18 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p0f /* 6/5 */),
+				t5, t17);
+			const __m256 t19 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.24924ap-3f /* 1/7 */), t8, t18);
+			const __m256 t20 = _mm256_mul_ps(f, f);
+			const __m256 t21 = _mm256_fmadd_ps(t19, t20, t16);
+			acc0 = _mm256_fmadd_ps(s, t21, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -1062,25 +1645,66 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x4y2f_avx2(
 /* integral of x^3 y^3; scheme even-power.
  * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x3y3f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 t2 = _mm256_mul_ps(b, b);
+			const __m256 t3 = _mm256_mul_ps(_mm256_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t2);
+			const __m256 t4 = _mm256_mul_ps(f, f);
+			const __m256 t5 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t4, t3);
+			const __m256 t6 = _mm256_mul_ps(a, a);
+			const __m256 t7 = _mm256_mul_ps(a, t6);
+			const __m256 t8 = _mm256_mul_ps(b, t7);
+			const __m256 t9 = _mm256_mul_ps(t5, t8);
+			const __m256 t10 = _mm256_fmadd_ps(_mm256_set1_ps(5.0f), t2, t4);
+			const __m256 t11 = _mm256_mul_ps(a, e);
+			const __m256 t12 = _mm256_mul_ps(a, t11);
+			const __m256 t13 = _mm256_mul_ps(f, t12);
+			const __m256 t14 = _mm256_fmadd_ps(t10, t13, t9);
+			const __m256 t15 = _mm256_fmadd_ps(_mm256_set1_ps(3.0f), t4, t3);
+			const __m256 t16 = _mm256_mul_ps(e, t11);
+			const __m256 t17 = _mm256_mul_ps(b, t16);
+			const __m256 t18 = _mm256_fmadd_ps(t15, t17, t14);
+			const __m256 t19 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.e79e7ap-3f /* 5/21 */), t4, t2);
+			const __m256 t20 = _mm256_mul_ps(e, e);
+			const __m256 t21 = _mm256_mul_ps(e, t20);
+			const __m256 t22 = _mm256_mul_ps(f, t21);
+			const __m256 t23 = _mm256_fmadd_ps(t19, t22, t18);
+			acc0 = _mm256_fmadd_ps(s, t23, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -1122,25 +1746,67 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x3y3f_avx2(
 /* integral of x^2 y^4; scheme even-power.
  * Cost per item: 23 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x2y4f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 t2 = _mm256_mul_ps(b, b);
+			const __m256 t3 = _mm256_mul_ps(t2, t2);
+			const __m256 t4 = _mm256_mul_ps(b, f);
+			const __m256 t5 = _mm256_mul_ps(t4, t4);
+			const __m256 t6 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t5, t3);
+			const __m256 t7 = _mm256_mul_ps(f, f);
+			const __m256 t8 = _mm256_mul_ps(t7, t7);
+			const __m256 t9 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */),
+				t8, t6);
+			const __m256 t10 = _mm256_mul_ps(a, a);
+			const __m256 t11 = _mm256_mul_ps(t9, t10);
+			const __m256 t12 = _mm256_mul_ps(_mm256_set1_ps(0x1.555556p1f /* 8/3 */),
+				t2);
+			const __m256 t13 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap0f /* 8/5 */),
+				t7, t12);
+			const __m256 t14 = _mm256_mul_ps(a, e);
+			const __m256 t15 = _mm256_mul_ps(t4, t14);
+			const __m256 t16 = _mm256_fmadd_ps(t13, t15, t11);
+			const __m256 t17 = _mm256_mul_ps(_mm256_set1_ps(0x1.555556p-2f /* 1/3 */),
+				t3);
+			const __m256 t18 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p0f /* 6/5 */),
+				t5, t17);
+			const __m256 t19 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.24924ap-3f /* 1/7 */), t8, t18);
+			const __m256 t20 = _mm256_mul_ps(e, e);
+			const __m256 t21 = _mm256_fmadd_ps(t19, t20, t16);
+			acc0 = _mm256_fmadd_ps(s, t21, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -1183,25 +1849,60 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x2y4f_avx2(
 /* integral of x^1 y^5; scheme even-power.
  * Cost per item: 17 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 8. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x1y5f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 t0 = _mm256_mul_ps(b, f);
+			const __m256 t1 = _mm256_mul_ps(t0, t0);
+			const __m256 t2 = _mm256_mul_ps(b, b);
+			const __m256 t3 = _mm256_mul_ps(t2, t2);
+			const __m256 t4 = _mm256_mul_ps(_mm256_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t3);
+			const __m256 t5 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t1, t4);
+			const __m256 t6 = _mm256_mul_ps(f, f);
+			const __m256 t7 = _mm256_mul_ps(t6, t6);
+			const __m256 t8 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.24924ap-3f /* 1/7 */),
+				t7, t5);
+			const __m256 t9 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.aaaaaap1f /* 10/3 */),
+				t1, t3);
+			const __m256 t10 = _mm256_add_ps(t9, t7);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 t11 = _mm256_mul_ps(a, b);
+			const __m256 t12 = _mm256_mul_ps(t10, t11);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 t13 = _mm256_mul_ps(e, f);
+			const __m256 t14 = _mm256_fmadd_ps(t8, t13, t12);
+			const __m256 t15 = _mm256_mul_ps(x0, y1);
+			const __m256 t16 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t15, t16);
+			acc0 = _mm256_fmadd_ps(s, t14, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 b = _mm256_add_ps(y0, y1);
 			const __m256 f = _mm256_sub_ps(y1, y0);
@@ -1237,25 +1938,49 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x1y5f_avx2(
 /* integral of x^0 y^6; scheme horner.
  * Cost per item: 13 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 8. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y6f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_add_ps(y0, y1);
+			const __m256 t3 = _mm256_mul_ps(y1, y1);
+			const __m256 t4 = _mm256_fmadd_ps(t2, y0, t3);
+			const __m256 t5 = _mm256_mul_ps(t3, y1);
+			const __m256 t6 = _mm256_fmadd_ps(t4, y0, t5);
+			const __m256 t7 = _mm256_mul_ps(t5, y1);
+			const __m256 t8 = _mm256_fmadd_ps(t6, y0, t7);
+			const __m256 t9 = _mm256_mul_ps(t7, y1);
+			const __m256 t10 = _mm256_fmadd_ps(t8, y0, t9);
+			const __m256 t11 = _mm256_mul_ps(t10, y0);
+			const __m256 t12 = _mm256_fmadd_ps(t9, y1, t11);
+			acc0 = _mm256_fmadd_ps(s, t12, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -1280,25 +2005,51 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y6f_avx2(
 /* integral of x^7 y^0; scheme horner.
  * Cost per item: 15 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 9. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x7y0f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_add_ps(x0, x1);
+			const __m256 t3 = _mm256_mul_ps(x1, x1);
+			const __m256 t4 = _mm256_fmadd_ps(t2, x0, t3);
+			const __m256 t5 = _mm256_mul_ps(t3, x1);
+			const __m256 t6 = _mm256_fmadd_ps(t4, x0, t5);
+			const __m256 t7 = _mm256_mul_ps(t5, x1);
+			const __m256 t8 = _mm256_fmadd_ps(t6, x0, t7);
+			const __m256 t9 = _mm256_mul_ps(t7, x1);
+			const __m256 t10 = _mm256_fmadd_ps(t8, x0, t9);
+			const __m256 t11 = _mm256_mul_ps(t9, x1);
+			const __m256 t12 = _mm256_fmadd_ps(t10, x0, t11);
+			const __m256 t13 = _mm256_mul_ps(t12, x0);
+			const __m256 t14 = _mm256_fmadd_ps(t11, x1, t13);
+			acc0 = _mm256_fmadd_ps(s, t14, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -1325,25 +2076,69 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x7y0f_avx2(
 /* integral of x^6 y^1; scheme matrix.
  * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x6y1f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, x0);
+			const __m256 t1 = _mm256_mul_ps(t0, t0);
+			const __m256 t2 = _mm256_mul_ps(x0, x1);
+			const __m256 t3 = _mm256_mul_ps(t2, t1);
+			const __m256 t4 = _mm256_mul_ps(t0, x0);
+			const __m256 t5 = _mm256_mul_ps(t4, t4);
+			const __m256 t6 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t3, t5);
+			const __m256 t7 = _mm256_mul_ps(t2, t2);
+			const __m256 t8 = _mm256_mul_ps(t0, t7);
+			const __m256 t9 = _mm256_fmadd_ps(_mm256_set1_ps(3.0f), t8, t6);
+			const __m256 t10 = _mm256_mul_ps(t2, t7);
+			const __m256 t11 = _mm256_mul_ps(_mm256_set1_ps(4.0f), t10);
+			const __m256 t12 = _mm256_add_ps(t11, t9);
+			const __m256 t13 = _mm256_mul_ps(x1, x1);
+			const __m256 t14 = _mm256_mul_ps(t7, t13);
+			const __m256 t15 = _mm256_fmadd_ps(_mm256_set1_ps(5.0f), t14, t12);
+			const __m256 t16 = _mm256_mul_ps(t13, t13);
+			const __m256 t17 = _mm256_mul_ps(t2, t16);
+			const __m256 t18 = _mm256_fmadd_ps(_mm256_set1_ps(6.0f), t17, t15);
+			const __m256 t19 = _mm256_mul_ps(t13, x1);
+			const __m256 t20 = _mm256_mul_ps(t19, t19);
+			const __m256 t21 = _mm256_fmadd_ps(_mm256_set1_ps(7.0f), t20, t18);
+			const __m256 t22 = _mm256_mul_ps(_mm256_set1_ps(7.0f), t5);
+			const __m256 t23 = _mm256_fmadd_ps(_mm256_set1_ps(6.0f), t3, t22);
+			const __m256 t24 = _mm256_fmadd_ps(_mm256_set1_ps(5.0f), t8, t23);
+			const __m256 t25 = _mm256_add_ps(t24, t11);
+			const __m256 t26 = _mm256_fmadd_ps(_mm256_set1_ps(3.0f), t14, t25);
+			const __m256 t27 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t17, t26);
+			const __m256 t28 = _mm256_add_ps(t27, t20);
+			const __m256 t29 = _mm256_mul_ps(t28, y0);
+			const __m256 t30 = _mm256_fmadd_ps(t21, y1, t29);
+			const __m256 t31 = _mm256_mul_ps(x0, y1);
+			const __m256 t32 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t31, t32);
+			acc0 = _mm256_fmadd_ps(s, t30, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, x0);
 			const __m256 t1 = _mm256_mul_ps(t0, t0);
@@ -1388,25 +2183,78 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x6y1f_avx2(
 /* integral of x^5 y^2; scheme matrix.
  * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x5y2f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_mul_ps(x0, x0);
+			const __m256 t3 = _mm256_mul_ps(t2, x0);
+			const __m256 t4 = _mm256_mul_ps(t2, t3);
+			const __m256 t5 = _mm256_mul_ps(_mm256_set1_ps(3.5f), t4);
+			const __m256 t6 = _mm256_mul_ps(x0, x1);
+			const __m256 t7 = _mm256_mul_ps(t3, t6);
+			const __m256 t8 = _mm256_fmadd_ps(_mm256_set1_ps(2.5f), t7, t5);
+			const __m256 t9 = _mm256_mul_ps(t6, t6);
+			const __m256 t10 = _mm256_mul_ps(t9, x0);
+			const __m256 t11 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t10, t8);
+			const __m256 t12 = _mm256_mul_ps(t9, x1);
+			const __m256 t13 = _mm256_add_ps(t11, t12);
+			const __m256 t14 = _mm256_mul_ps(x1, x1);
+			const __m256 t15 = _mm256_mul_ps(t14, x1);
+			const __m256 t16 = _mm256_mul_ps(t6, t15);
+			const __m256 t17 = _mm256_fmadd_ps(_mm256_set1_ps(0.5f), t16, t13);
+			const __m256 t18 = _mm256_mul_ps(t14, t15);
+			const __m256 t19 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.555556p-3f /* 1/6 */), t18, t17);
+			const __m256 t20 = _mm256_mul_ps(y0, y0);
+			const __m256 t21 = _mm256_mul_ps(t19, t20);
+			const __m256 t22 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t7, t4);
+			const __m256 t23 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t10, t22);
+			const __m256 t24 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t12, t23);
+			const __m256 t25 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t16, t24);
+			const __m256 t26 = _mm256_add_ps(t18, t25);
+			const __m256 t27 = _mm256_mul_ps(y0, y1);
+			const __m256 t28 = _mm256_fmadd_ps(t26, t27, t21);
+			const __m256 t29 = _mm256_mul_ps(_mm256_set1_ps(0x1.555556p-3f /* 1/6 */),
+				t4);
+			const __m256 t30 = _mm256_fmadd_ps(_mm256_set1_ps(0.5f), t7, t29);
+			const __m256 t31 = _mm256_add_ps(t10, t30);
+			const __m256 t32 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t12, t31);
+			const __m256 t33 = _mm256_fmadd_ps(_mm256_set1_ps(2.5f), t16, t32);
+			const __m256 t34 = _mm256_fmadd_ps(_mm256_set1_ps(3.5f), t18, t33);
+			const __m256 t35 = _mm256_mul_ps(y1, y1);
+			const __m256 t36 = _mm256_fmadd_ps(t34, t35, t28);
+			acc0 = _mm256_fmadd_ps(s, t36, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -1460,25 +2308,79 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x5y2f_avx2(
 /* integral of x^4 y^3; scheme matrix.
  * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x4y3f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_mul_ps(x0, x0);
+			const __m256 t3 = _mm256_mul_ps(t2, t2);
+			const __m256 t4 = _mm256_mul_ps(x0, x1);
+			const __m256 t5 = _mm256_mul_ps(t2, t4);
+			const __m256 t6 = _mm256_fmadd_ps(_mm256_set1_ps(1.75f), t3, t5);
+			const __m256 t7 = _mm256_mul_ps(t4, t4);
+			const __m256 t8 = _mm256_mul_ps(_mm256_set1_ps(0.5f), t7);
+			const __m256 t9 = _mm256_add_ps(t6, t8);
+			const __m256 t10 = _mm256_mul_ps(x1, x1);
+			const __m256 t11 = _mm256_mul_ps(t4, t10);
+			const __m256 t12 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */), t11, t9);
+			const __m256 t13 = _mm256_mul_ps(t10, t10);
+			const __m256 t14 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-5f /* 1/20 */), t13, t12);
+			const __m256 t15 = _mm256_mul_ps(y0, y0);
+			const __m256 t16 = _mm256_mul_ps(t15, y0);
+			const __m256 t17 = _mm256_mul_ps(t14, t16);
+			const __m256 t18 = _mm256_fmadd_ps(_mm256_set1_ps(0.75f), t3, t5);
+			const __m256 t19 = _mm256_mul_ps(_mm256_set1_ps(0x1.ccccccp-1f /* 9/10 */),
+				t7);
+			const __m256 t20 = _mm256_add_ps(t18, t19);
+			const __m256 t21 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p-1f /* 3/5 */), t11, t20);
+			const __m256 t22 = _mm256_fmadd_ps(_mm256_set1_ps(0.25f), t13, t21);
+			const __m256 t23 = _mm256_mul_ps(y0, y1);
+			const __m256 t24 = _mm256_mul_ps(t23, y0);
+			const __m256 t25 = _mm256_fmadd_ps(t22, t24, t17);
+			const __m256 t26 = _mm256_mul_ps(_mm256_set1_ps(0.25f), t3);
+			const __m256 t27 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p-1f /* 3/5 */), t5, t26);
+			const __m256 t28 = _mm256_add_ps(t19, t27);
+			const __m256 t29 = _mm256_add_ps(t11, t28);
+			const __m256 t30 = _mm256_fmadd_ps(_mm256_set1_ps(0.75f), t13, t29);
+			const __m256 t31 = _mm256_mul_ps(t23, y1);
+			const __m256 t32 = _mm256_fmadd_ps(t30, t31, t25);
+			const __m256 t33 = _mm256_mul_ps(_mm256_set1_ps(0x1.99999ap-5f /* 1/20 */),
+				t3);
+			const __m256 t34 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */), t5, t33);
+			const __m256 t35 = _mm256_add_ps(t8, t34);
+			const __m256 t36 = _mm256_add_ps(t11, t35);
+			const __m256 t37 = _mm256_fmadd_ps(_mm256_set1_ps(1.75f), t13, t36);
+			const __m256 t38 = _mm256_mul_ps(y1, y1);
+			const __m256 t39 = _mm256_mul_ps(t38, y1);
+			const __m256 t40 = _mm256_fmadd_ps(t37, t39, t32);
+			acc0 = _mm256_fmadd_ps(s, t40, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -1533,25 +2435,79 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x4y3f_avx2(
 /* integral of x^3 y^4; scheme matrix.
  * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x3y4f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_mul_ps(y0, y0);
+			const __m256 t3 = _mm256_mul_ps(t2, t2);
+			const __m256 t4 = _mm256_mul_ps(y0, y1);
+			const __m256 t5 = _mm256_mul_ps(t2, t4);
+			const __m256 t6 = _mm256_fmadd_ps(_mm256_set1_ps(1.75f), t3, t5);
+			const __m256 t7 = _mm256_mul_ps(t4, t4);
+			const __m256 t8 = _mm256_mul_ps(_mm256_set1_ps(0.5f), t7);
+			const __m256 t9 = _mm256_add_ps(t6, t8);
+			const __m256 t10 = _mm256_mul_ps(y1, y1);
+			const __m256 t11 = _mm256_mul_ps(t4, t10);
+			const __m256 t12 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */), t11, t9);
+			const __m256 t13 = _mm256_mul_ps(t10, t10);
+			const __m256 t14 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-5f /* 1/20 */), t13, t12);
+			const __m256 t15 = _mm256_mul_ps(x0, x0);
+			const __m256 t16 = _mm256_mul_ps(t15, x0);
+			const __m256 t17 = _mm256_mul_ps(t14, t16);
+			const __m256 t18 = _mm256_fmadd_ps(_mm256_set1_ps(0.75f), t3, t5);
+			const __m256 t19 = _mm256_mul_ps(_mm256_set1_ps(0x1.ccccccp-1f /* 9/10 */),
+				t7);
+			const __m256 t20 = _mm256_add_ps(t18, t19);
+			const __m256 t21 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p-1f /* 3/5 */), t11, t20);
+			const __m256 t22 = _mm256_fmadd_ps(_mm256_set1_ps(0.25f), t13, t21);
+			const __m256 t23 = _mm256_mul_ps(x0, x1);
+			const __m256 t24 = _mm256_mul_ps(t23, x0);
+			const __m256 t25 = _mm256_fmadd_ps(t22, t24, t17);
+			const __m256 t26 = _mm256_mul_ps(_mm256_set1_ps(0.25f), t3);
+			const __m256 t27 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p-1f /* 3/5 */), t5, t26);
+			const __m256 t28 = _mm256_add_ps(t19, t27);
+			const __m256 t29 = _mm256_add_ps(t11, t28);
+			const __m256 t30 = _mm256_fmadd_ps(_mm256_set1_ps(0.75f), t13, t29);
+			const __m256 t31 = _mm256_mul_ps(t23, x1);
+			const __m256 t32 = _mm256_fmadd_ps(t30, t31, t25);
+			const __m256 t33 = _mm256_mul_ps(_mm256_set1_ps(0x1.99999ap-5f /* 1/20 */),
+				t3);
+			const __m256 t34 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */), t5, t33);
+			const __m256 t35 = _mm256_add_ps(t8, t34);
+			const __m256 t36 = _mm256_add_ps(t11, t35);
+			const __m256 t37 = _mm256_fmadd_ps(_mm256_set1_ps(1.75f), t13, t36);
+			const __m256 t38 = _mm256_mul_ps(x1, x1);
+			const __m256 t39 = _mm256_mul_ps(t38, x1);
+			const __m256 t40 = _mm256_fmadd_ps(t37, t39, t32);
+			acc0 = _mm256_fmadd_ps(s, t40, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -1606,25 +2562,77 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x3y4f_avx2(
 /* integral of x^2 y^5; scheme matrix.
  * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x2y5f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			const __m256 t2 = _mm256_mul_ps(y0, y0);
+			const __m256 t3 = _mm256_mul_ps(t2, y0);
+			const __m256 t4 = _mm256_mul_ps(t2, t3);
+			const __m256 t5 = _mm256_mul_ps(_mm256_set1_ps(0x1.0cccccp1f /* 21/10 */),
+				t4);
+			const __m256 t6 = _mm256_mul_ps(y0, y1);
+			const __m256 t7 = _mm256_mul_ps(t3, t6);
+			const __m256 t8 = _mm256_fmadd_ps(_mm256_set1_ps(1.5f), t7, t5);
+			const __m256 t9 = _mm256_mul_ps(t6, t6);
+			const __m256 t10 = _mm256_mul_ps(t9, y0);
+			const __m256 t11 = _mm256_add_ps(t8, t10);
+			const __m256 t12 = _mm256_mul_ps(t9, y1);
+			const __m256 t13 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p-1f /* 3/5 */), t12, t11);
+			const __m256 t14 = _mm256_mul_ps(y1, y1);
+			const __m256 t15 = _mm256_mul_ps(t14, y1);
+			const __m256 t16 = _mm256_mul_ps(t6, t15);
+			const __m256 t17 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p-2f /* 3/10 */), t16, t13);
+			const __m256 t18 = _mm256_mul_ps(t14, t15);
+			const __m256 t19 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-4f /* 1/10 */), t18, t17);
+			const __m256 t20 = _mm256_mul_ps(x0, x0);
+			const __m256 t21 = _mm256_mul_ps(t19, t20);
+			const __m256 t22 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p-1f /* 3/5 */), t4, t7);
+			const __m256 t23 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p0f /* 6/5 */),
+				t10, t22);
+			const __m256 t24 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p0f /* 6/5 */),
+				t12, t23);
+			const __m256 t25 = _mm256_add_ps(t16, t24);
+			const __m256 t26 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p-1f /* 3/5 */), t18, t25);
+			const __m256 t27 = _mm256_mul_ps(x0, x1);
+			const __m256 t28 = _mm256_fmadd_ps(t26, t27, t21);
+			const __m256 t29 = _mm256_mul_ps(_mm256_set1_ps(0x1.99999ap-4f /* 1/10 */),
+				t4);
+			const __m256 t30 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p-2f /* 3/10 */), t7, t29);
+			const __m256 t31 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.333334p-1f /* 3/5 */), t10, t30);
+			const __m256 t32 = _mm256_add_ps(t12, t31);
+			const __m256 t33 = _mm256_fmadd_ps(_mm256_set1_ps(1.5f), t16, t32);
+			const __m256 t34 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.0cccccp1f /* 21/10 */), t18, t33);
+			const __m256 t35 = _mm256_mul_ps(x1, x1);
+			const __m256 t36 = _mm256_fmadd_ps(t34, t35, t28);
+			acc0 = _mm256_fmadd_ps(s, t36, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -1677,25 +2685,69 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x2y5f_avx2(
 /* integral of x^1 y^6; scheme matrix.
  * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x1y6f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(y0, y0);
+			const __m256 t1 = _mm256_mul_ps(t0, t0);
+			const __m256 t2 = _mm256_mul_ps(y0, y1);
+			const __m256 t3 = _mm256_mul_ps(t2, t1);
+			const __m256 t4 = _mm256_mul_ps(t0, y0);
+			const __m256 t5 = _mm256_mul_ps(t4, t4);
+			const __m256 t6 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t3, t5);
+			const __m256 t7 = _mm256_mul_ps(t2, t2);
+			const __m256 t8 = _mm256_mul_ps(t0, t7);
+			const __m256 t9 = _mm256_fmadd_ps(_mm256_set1_ps(3.0f), t8, t6);
+			const __m256 t10 = _mm256_mul_ps(t2, t7);
+			const __m256 t11 = _mm256_mul_ps(_mm256_set1_ps(4.0f), t10);
+			const __m256 t12 = _mm256_add_ps(t11, t9);
+			const __m256 t13 = _mm256_mul_ps(y1, y1);
+			const __m256 t14 = _mm256_mul_ps(t7, t13);
+			const __m256 t15 = _mm256_fmadd_ps(_mm256_set1_ps(5.0f), t14, t12);
+			const __m256 t16 = _mm256_mul_ps(t13, t13);
+			const __m256 t17 = _mm256_mul_ps(t2, t16);
+			const __m256 t18 = _mm256_fmadd_ps(_mm256_set1_ps(6.0f), t17, t15);
+			const __m256 t19 = _mm256_mul_ps(t13, y1);
+			const __m256 t20 = _mm256_mul_ps(t19, t19);
+			const __m256 t21 = _mm256_fmadd_ps(_mm256_set1_ps(7.0f), t20, t18);
+			const __m256 t22 = _mm256_mul_ps(_mm256_set1_ps(7.0f), t5);
+			const __m256 t23 = _mm256_fmadd_ps(_mm256_set1_ps(6.0f), t3, t22);
+			const __m256 t24 = _mm256_fmadd_ps(_mm256_set1_ps(5.0f), t8, t23);
+			const __m256 t25 = _mm256_add_ps(t24, t11);
+			const __m256 t26 = _mm256_fmadd_ps(_mm256_set1_ps(3.0f), t14, t25);
+			const __m256 t27 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t17, t26);
+			const __m256 t28 = _mm256_add_ps(t27, t20);
+			const __m256 t29 = _mm256_mul_ps(t28, x0);
+			const __m256 t30 = _mm256_fmadd_ps(t21, x1, t29);
+			const __m256 t31 = _mm256_mul_ps(x0, y1);
+			const __m256 t32 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t31, t32);
+			acc0 = _mm256_fmadd_ps(s, t30, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(y0, y0);
 			const __m256 t1 = _mm256_mul_ps(t0, t0);
@@ -1740,26 +2792,22 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x1y6f_avx2(
 /* integral of x^0 y^7; scheme horner.
  * Cost per item: 15 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 9. */
 EW_ATTRIBUTE_AVX2 void ew_ring_x0y7f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
-			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
-			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m256 y1 = _mm256_loadu_ps(at_y1);
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
 			const __m256 s = _mm256_sub_ps(t0, t1);
@@ -1778,624 +2826,17 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y7f_avx2(
 			const __m256 t14 = _mm256_fmadd_ps(t11, y1, t13);
 			acc0 = _mm256_fmadd_ps(s, t14, acc0);
 		}
-		_mm256_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^8 y^0; scheme horner.
- * Cost per item: 17 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 10. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x8y0f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
-		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m256 y1 = _mm256_loadu_ps(at_y1);
-			const __m256 t0 = _mm256_mul_ps(x0, y1);
-			const __m256 t1 = _mm256_mul_ps(x1, y0);
-			const __m256 s = _mm256_sub_ps(t0, t1);
-			const __m256 t2 = _mm256_add_ps(x0, x1);
-			const __m256 t3 = _mm256_mul_ps(x1, x1);
-			const __m256 t4 = _mm256_fmadd_ps(t2, x0, t3);
-			const __m256 t5 = _mm256_mul_ps(t3, x1);
-			const __m256 t6 = _mm256_fmadd_ps(t4, x0, t5);
-			const __m256 t7 = _mm256_mul_ps(t5, x1);
-			const __m256 t8 = _mm256_fmadd_ps(t6, x0, t7);
-			const __m256 t9 = _mm256_mul_ps(t7, x1);
-			const __m256 t10 = _mm256_fmadd_ps(t8, x0, t9);
-			const __m256 t11 = _mm256_mul_ps(t9, x1);
-			const __m256 t12 = _mm256_fmadd_ps(t10, x0, t11);
-			const __m256 t13 = _mm256_mul_ps(t11, x1);
-			const __m256 t14 = _mm256_fmadd_ps(t12, x0, t13);
-			const __m256 t15 = _mm256_mul_ps(t14, x0);
-			const __m256 t16 = _mm256_fmadd_ps(t13, x1, t15);
-			acc0 = _mm256_fmadd_ps(s, t16, acc0);
-		}
-		_mm256_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^7 y^1; scheme matrix.
- * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x7y1f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
-		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
-			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
-			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m256 y1 = _mm256_loadu_ps(at_y1);
-			const __m256 t0 = _mm256_mul_ps(x0, x0);
-			const __m256 t1 = _mm256_mul_ps(t0, x0);
-			const __m256 t2 = _mm256_mul_ps(t0, t1);
-			const __m256 t3 = _mm256_mul_ps(x0, x1);
-			const __m256 t4 = _mm256_mul_ps(t3, t2);
-			const __m256 t5 = _mm256_mul_ps(t0, t0);
-			const __m256 t6 = _mm256_mul_ps(t1, t5);
-			const __m256 t7 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t4, t6);
-			const __m256 t8 = _mm256_mul_ps(t3, t3);
-			const __m256 t9 = _mm256_mul_ps(t1, t8);
-			const __m256 t10 = _mm256_fmadd_ps(_mm256_set1_ps(3.0f), t9, t7);
-			const __m256 t11 = _mm256_mul_ps(t3, t8);
-			const __m256 t12 = _mm256_mul_ps(t11, x0);
-			const __m256 t13 = _mm256_fmadd_ps(_mm256_set1_ps(4.0f), t12, t10);
-			const __m256 t14 = _mm256_mul_ps(t11, x1);
-			const __m256 t15 = _mm256_fmadd_ps(_mm256_set1_ps(5.0f), t14, t13);
-			const __m256 t16 = _mm256_mul_ps(x1, x1);
-			const __m256 t17 = _mm256_mul_ps(t16, x1);
-			const __m256 t18 = _mm256_mul_ps(t8, t17);
-			const __m256 t19 = _mm256_fmadd_ps(_mm256_set1_ps(6.0f), t18, t15);
-			const __m256 t20 = _mm256_mul_ps(t16, t17);
-			const __m256 t21 = _mm256_mul_ps(t3, t20);
-			const __m256 t22 = _mm256_fmadd_ps(_mm256_set1_ps(7.0f), t21, t19);
-			const __m256 t23 = _mm256_mul_ps(t16, t16);
-			const __m256 t24 = _mm256_mul_ps(t17, t23);
-			const __m256 t25 = _mm256_fmadd_ps(_mm256_set1_ps(8.0f), t24, t22);
-			const __m256 t26 = _mm256_mul_ps(_mm256_set1_ps(8.0f), t6);
-			const __m256 t27 = _mm256_fmadd_ps(_mm256_set1_ps(7.0f), t4, t26);
-			const __m256 t28 = _mm256_fmadd_ps(_mm256_set1_ps(6.0f), t9, t27);
-			const __m256 t29 = _mm256_fmadd_ps(_mm256_set1_ps(5.0f), t12, t28);
-			const __m256 t30 = _mm256_fmadd_ps(_mm256_set1_ps(4.0f), t14, t29);
-			const __m256 t31 = _mm256_fmadd_ps(_mm256_set1_ps(3.0f), t18, t30);
-			const __m256 t32 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t21, t31);
-			const __m256 t33 = _mm256_add_ps(t32, t24);
-			const __m256 t34 = _mm256_mul_ps(t33, y0);
-			const __m256 t35 = _mm256_fmadd_ps(t25, y1, t34);
-			const __m256 t36 = _mm256_mul_ps(x0, y1);
-			const __m256 t37 = _mm256_mul_ps(x1, y0);
-			const __m256 s = _mm256_sub_ps(t36, t37);
-			acc0 = _mm256_fmadd_ps(s, t35, acc0);
-		}
-		_mm256_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^6 y^2; scheme matrix.
- * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x6y2f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
-		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
-			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
-			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m256 y1 = _mm256_loadu_ps(at_y1);
-			const __m256 t0 = _mm256_mul_ps(x0, x0);
-			const __m256 t1 = _mm256_mul_ps(t0, t0);
-			const __m256 t2 = _mm256_mul_ps(x0, x1);
-			const __m256 t3 = _mm256_mul_ps(t2, t1);
-			const __m256 t4 = _mm256_mul_ps(t0, x0);
-			const __m256 t5 = _mm256_mul_ps(t4, t4);
-			const __m256 t6 = _mm256_mul_ps(_mm256_set1_ps(0x1.dddddep-2f /* 7/15 */),
-				t5);
-			const __m256 t7 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-1f /* 4/5 */),
-				t3, t6);
-			const __m256 t8 = _mm256_mul_ps(t2, t2);
-			const __m256 t9 = _mm256_mul_ps(t0, t8);
-			const __m256 t10 = _mm256_add_ps(t9, t7);
-			const __m256 t11 = _mm256_mul_ps(t2, t8);
-			const __m256 t12 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.111112p0f /* 16/15 */), t11, t10);
-			const __m256 t13 = _mm256_mul_ps(x1, x1);
-			const __m256 t14 = _mm256_mul_ps(t8, t13);
-			const __m256 t15 = _mm256_add_ps(t14, t12);
-			const __m256 t16 = _mm256_mul_ps(t13, t13);
-			const __m256 t17 = _mm256_mul_ps(t2, t16);
-			const __m256 t18 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-1f /* 4/5 */), t17, t15);
-			const __m256 t19 = _mm256_mul_ps(t13, x1);
-			const __m256 t20 = _mm256_mul_ps(t19, t19);
-			const __m256 t21 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.dddddep-2f /* 7/15 */), t20, t18);
-			const __m256 t22 = _mm256_mul_ps(_mm256_set1_ps(0x1.dddddep0f /* 28/15 */),
-				t5);
-			const __m256 t23 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.666666p0f /* 7/5 */),
-				t3, t22);
-			const __m256 t24 = _mm256_add_ps(t23, t9);
-			const __m256 t25 = _mm256_mul_ps(_mm256_set1_ps(0x1.555556p-1f /* 2/3 */),
-				t11);
-			const __m256 t26 = _mm256_add_ps(t24, t25);
-			const __m256 t27 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-2f /* 2/5 */), t14, t26);
-			const __m256 t28 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */), t17, t27);
-			const __m256 t29 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.111112p-4f /* 1/15 */), t20, t28);
-			const __m256 t30 = _mm256_mul_ps(y0, y0);
-			const __m256 t31 = _mm256_mul_ps(t29, t30);
-			const __m256 t32 = _mm256_mul_ps(y0, y1);
-			const __m256 t33 = _mm256_fmadd_ps(t21, t32, t31);
-			const __m256 t34 = _mm256_mul_ps(_mm256_set1_ps(0x1.111112p-4f /* 1/15 */),
-				t5);
-			const __m256 t35 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */), t3, t34);
-			const __m256 t36 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-2f /* 2/5 */), t9, t35);
-			const __m256 t37 = _mm256_add_ps(t25, t36);
-			const __m256 t38 = _mm256_add_ps(t14, t37);
-			const __m256 t39 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.666666p0f /* 7/5 */),
-				t17, t38);
-			const __m256 t40 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.dddddep0f /* 28/15 */), t20, t39);
-			const __m256 t41 = _mm256_mul_ps(y1, y1);
-			const __m256 t42 = _mm256_fmadd_ps(t40, t41, t33);
-			const __m256 t43 = _mm256_mul_ps(x0, y1);
-			const __m256 t44 = _mm256_mul_ps(x1, y0);
-			const __m256 s = _mm256_sub_ps(t43, t44);
-			acc0 = _mm256_fmadd_ps(s, t42, acc0);
-		}
-		_mm256_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^5 y^3; scheme matrix.
- * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x5y3f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
-		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
-			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
-			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m256 y1 = _mm256_loadu_ps(at_y1);
-			const __m256 t0 = _mm256_mul_ps(x0, y1);
-			const __m256 t1 = _mm256_mul_ps(x1, y0);
-			const __m256 s = _mm256_sub_ps(t0, t1);
-			const __m256 t2 = _mm256_mul_ps(x0, x0);
-			const __m256 t3 = _mm256_mul_ps(t2, x0);
-			const __m256 t4 = _mm256_mul_ps(t2, t3);
-			const __m256 t5 = _mm256_mul_ps(_mm256_set1_ps(0x1.dddddep0f /* 28/15 */),
-				t4);
-			const __m256 t6 = _mm256_mul_ps(x0, x1);
-			const __m256 t7 = _mm256_mul_ps(t3, t6);
-			const __m256 t8 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.2aaaaap0f /* 7/6 */),
-				t7, t5);
-			const __m256 t9 = _mm256_mul_ps(t6, t6);
-			const __m256 t10 = _mm256_mul_ps(t9, x0);
-			const __m256 t11 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.555556p-1f /* 2/3 */), t10, t8);
-			const __m256 t12 = _mm256_mul_ps(t9, x1);
-			const __m256 t13 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.555556p-2f /* 1/3 */), t12, t11);
-			const __m256 t14 = _mm256_mul_ps(x1, x1);
-			const __m256 t15 = _mm256_mul_ps(t14, x1);
-			const __m256 t16 = _mm256_mul_ps(t6, t15);
-			const __m256 t17 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.111112p-3f /* 2/15 */), t16, t13);
-			const __m256 t18 = _mm256_mul_ps(t14, t15);
-			const __m256 t19 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.111112p-5f /* 1/30 */), t18, t17);
-			const __m256 t20 = _mm256_mul_ps(y0, y0);
-			const __m256 t21 = _mm256_mul_ps(t20, y0);
-			const __m256 t22 = _mm256_mul_ps(t19, t21);
-			const __m256 t23 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.666666p-1f /* 7/10 */), t4, t7);
-			const __m256 t24 = _mm256_add_ps(t10, t23);
-			const __m256 t25 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-1f /* 4/5 */), t12, t24);
-			const __m256 t26 = _mm256_fmadd_ps(_mm256_set1_ps(0.5f), t16, t25);
-			const __m256 t27 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */), t18, t26);
-			const __m256 t28 = _mm256_mul_ps(y0, y1);
-			const __m256 t29 = _mm256_mul_ps(t28, y0);
-			const __m256 t30 = _mm256_fmadd_ps(t27, t29, t22);
-			const __m256 t31 = _mm256_mul_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */),
-				t4);
-			const __m256 t32 = _mm256_fmadd_ps(_mm256_set1_ps(0.5f), t7, t31);
-			const __m256 t33 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-1f /* 4/5 */), t10, t32);
-			const __m256 t34 = _mm256_add_ps(t12, t33);
-			const __m256 t35 = _mm256_add_ps(t16, t34);
-			const __m256 t36 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.666666p-1f /* 7/10 */), t18, t35);
-			const __m256 t37 = _mm256_mul_ps(t28, y1);
-			const __m256 t38 = _mm256_fmadd_ps(t36, t37, t30);
-			const __m256 t39 = _mm256_mul_ps(_mm256_set1_ps(0x1.111112p-5f /* 1/30 */),
-				t4);
-			const __m256 t40 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.111112p-3f /* 2/15 */), t7, t39);
-			const __m256 t41 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.555556p-2f /* 1/3 */), t10, t40);
-			const __m256 t42 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.555556p-1f /* 2/3 */), t12, t41);
-			const __m256 t43 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.2aaaaap0f /* 7/6 */),
-				t16, t42);
-			const __m256 t44 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.dddddep0f /* 28/15 */), t18, t43);
-			const __m256 t45 = _mm256_mul_ps(y1, y1);
-			const __m256 t46 = _mm256_mul_ps(t45, y1);
-			const __m256 t47 = _mm256_fmadd_ps(t44, t46, t38);
-			acc0 = _mm256_fmadd_ps(s, t47, acc0);
-		}
-		_mm256_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^4 y^4; scheme matrix.
- * Cost per item: 45 mul or fma, 6 add; 1 accumulators, 14 values alive, depth 13. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x4y4f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
-		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
-			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
-			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m256 y1 = _mm256_loadu_ps(at_y1);
-			const __m256 t0 = _mm256_mul_ps(x0, y1);
-			const __m256 t1 = _mm256_mul_ps(x1, y0);
-			const __m256 s = _mm256_sub_ps(t0, t1);
-			const __m256 t2 = _mm256_mul_ps(y0, y0);
-			const __m256 t3 = _mm256_mul_ps(t2, t2);
-			const __m256 t4 = _mm256_mul_ps(_mm256_set1_ps(70.0f), t3);
-			const __m256 t5 = _mm256_mul_ps(y0, y1);
-			const __m256 t6 = _mm256_mul_ps(t2, t5);
-			const __m256 t7 = _mm256_fmadd_ps(_mm256_set1_ps(35.0f), t6, t4);
-			const __m256 t8 = _mm256_mul_ps(t5, t5);
-			const __m256 t9 = _mm256_mul_ps(_mm256_set1_ps(15.0f), t8);
-			const __m256 t10 = _mm256_add_ps(t7, t9);
-			const __m256 t11 = _mm256_mul_ps(y1, y1);
-			const __m256 t12 = _mm256_mul_ps(t5, t11);
-			const __m256 t13 = _mm256_fmadd_ps(_mm256_set1_ps(5.0f), t12, t10);
-			const __m256 t14 = _mm256_mul_ps(t11, t11);
-			const __m256 t15 = _mm256_add_ps(t13, t14);
-			const __m256 t16 = _mm256_mul_ps(x0, x0);
-			const __m256 t17 = _mm256_mul_ps(t16, t16);
-			const __m256 t18 = _mm256_mul_ps(t15, t17);
-			const __m256 t19 = _mm256_mul_ps(_mm256_set1_ps(35.0f), t3);
-			const __m256 t20 = _mm256_fmadd_ps(_mm256_set1_ps(40.0f), t6, t19);
-			const __m256 t21 = _mm256_mul_ps(_mm256_set1_ps(30.0f), t8);
-			const __m256 t22 = _mm256_add_ps(t20, t21);
-			const __m256 t23 = _mm256_fmadd_ps(_mm256_set1_ps(16.0f), t12, t22);
-			const __m256 t24 = _mm256_fmadd_ps(_mm256_set1_ps(5.0f), t14, t23);
-			const __m256 t25 = _mm256_mul_ps(x0, x1);
-			const __m256 t26 = _mm256_mul_ps(t16, t25);
-			const __m256 t27 = _mm256_fmadd_ps(t24, t26, t18);
-			const __m256 t28 = _mm256_mul_ps(_mm256_set1_ps(15.0f), t3);
-			const __m256 t29 = _mm256_fmadd_ps(_mm256_set1_ps(30.0f), t6, t28);
-			const __m256 t30 = _mm256_fmadd_ps(_mm256_set1_ps(36.0f), t8, t29);
-			const __m256 t31 = _mm256_fmadd_ps(_mm256_set1_ps(30.0f), t12, t30);
-			const __m256 t32 = _mm256_fmadd_ps(_mm256_set1_ps(15.0f), t14, t31);
-			const __m256 t33 = _mm256_mul_ps(t25, t25);
-			const __m256 t34 = _mm256_fmadd_ps(t32, t33, t27);
-			const __m256 t35 = _mm256_mul_ps(_mm256_set1_ps(5.0f), t3);
-			const __m256 t36 = _mm256_fmadd_ps(_mm256_set1_ps(16.0f), t6, t35);
-			const __m256 t37 = _mm256_add_ps(t21, t36);
-			const __m256 t38 = _mm256_fmadd_ps(_mm256_set1_ps(40.0f), t12, t37);
-			const __m256 t39 = _mm256_fmadd_ps(_mm256_set1_ps(35.0f), t14, t38);
-			const __m256 t40 = _mm256_mul_ps(x1, x1);
-			const __m256 t41 = _mm256_mul_ps(t25, t40);
-			const __m256 t42 = _mm256_fmadd_ps(t39, t41, t34);
-			const __m256 t43 = _mm256_fmadd_ps(_mm256_set1_ps(5.0f), t6, t3);
-			const __m256 t44 = _mm256_add_ps(t9, t43);
-			const __m256 t45 = _mm256_fmadd_ps(_mm256_set1_ps(35.0f), t12, t44);
-			const __m256 t46 = _mm256_fmadd_ps(_mm256_set1_ps(70.0f), t14, t45);
-			const __m256 t47 = _mm256_mul_ps(t40, t40);
-			const __m256 t48 = _mm256_fmadd_ps(t46, t47, t42);
-			acc0 = _mm256_fmadd_ps(s, t48, acc0);
-		}
-		_mm256_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^3 y^5; scheme matrix.
- * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x3y5f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
-		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
-			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
-			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m256 y1 = _mm256_loadu_ps(at_y1);
-			const __m256 t0 = _mm256_mul_ps(x0, y1);
-			const __m256 t1 = _mm256_mul_ps(x1, y0);
-			const __m256 s = _mm256_sub_ps(t0, t1);
-			const __m256 t2 = _mm256_mul_ps(y0, y0);
-			const __m256 t3 = _mm256_mul_ps(t2, y0);
-			const __m256 t4 = _mm256_mul_ps(t2, t3);
-			const __m256 t5 = _mm256_mul_ps(_mm256_set1_ps(0x1.dddddep0f /* 28/15 */),
-				t4);
-			const __m256 t6 = _mm256_mul_ps(y0, y1);
-			const __m256 t7 = _mm256_mul_ps(t3, t6);
-			const __m256 t8 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.2aaaaap0f /* 7/6 */),
-				t7, t5);
-			const __m256 t9 = _mm256_mul_ps(t6, t6);
-			const __m256 t10 = _mm256_mul_ps(t9, y0);
-			const __m256 t11 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.555556p-1f /* 2/3 */), t10, t8);
-			const __m256 t12 = _mm256_mul_ps(t9, y1);
-			const __m256 t13 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.555556p-2f /* 1/3 */), t12, t11);
-			const __m256 t14 = _mm256_mul_ps(y1, y1);
-			const __m256 t15 = _mm256_mul_ps(t14, y1);
-			const __m256 t16 = _mm256_mul_ps(t6, t15);
-			const __m256 t17 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.111112p-3f /* 2/15 */), t16, t13);
-			const __m256 t18 = _mm256_mul_ps(t14, t15);
-			const __m256 t19 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.111112p-5f /* 1/30 */), t18, t17);
-			const __m256 t20 = _mm256_mul_ps(x0, x0);
-			const __m256 t21 = _mm256_mul_ps(t20, x0);
-			const __m256 t22 = _mm256_mul_ps(t19, t21);
-			const __m256 t23 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.666666p-1f /* 7/10 */), t4, t7);
-			const __m256 t24 = _mm256_add_ps(t10, t23);
-			const __m256 t25 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-1f /* 4/5 */), t12, t24);
-			const __m256 t26 = _mm256_fmadd_ps(_mm256_set1_ps(0.5f), t16, t25);
-			const __m256 t27 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */), t18, t26);
-			const __m256 t28 = _mm256_mul_ps(x0, x1);
-			const __m256 t29 = _mm256_mul_ps(t28, x0);
-			const __m256 t30 = _mm256_fmadd_ps(t27, t29, t22);
-			const __m256 t31 = _mm256_mul_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */),
-				t4);
-			const __m256 t32 = _mm256_fmadd_ps(_mm256_set1_ps(0.5f), t7, t31);
-			const __m256 t33 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-1f /* 4/5 */), t10, t32);
-			const __m256 t34 = _mm256_add_ps(t12, t33);
-			const __m256 t35 = _mm256_add_ps(t16, t34);
-			const __m256 t36 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.666666p-1f /* 7/10 */), t18, t35);
-			const __m256 t37 = _mm256_mul_ps(t28, x1);
-			const __m256 t38 = _mm256_fmadd_ps(t36, t37, t30);
-			const __m256 t39 = _mm256_mul_ps(_mm256_set1_ps(0x1.111112p-5f /* 1/30 */),
-				t4);
-			const __m256 t40 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.111112p-3f /* 2/15 */), t7, t39);
-			const __m256 t41 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.555556p-2f /* 1/3 */), t10, t40);
-			const __m256 t42 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.555556p-1f /* 2/3 */), t12, t41);
-			const __m256 t43 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.2aaaaap0f /* 7/6 */),
-				t16, t42);
-			const __m256 t44 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.dddddep0f /* 28/15 */), t18, t43);
-			const __m256 t45 = _mm256_mul_ps(x1, x1);
-			const __m256 t46 = _mm256_mul_ps(t45, x1);
-			const __m256 t47 = _mm256_fmadd_ps(t44, t46, t38);
-			acc0 = _mm256_fmadd_ps(s, t47, acc0);
-		}
-		_mm256_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^2 y^6; scheme matrix.
- * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x2y6f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
-		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
-			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
-			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m256 y1 = _mm256_loadu_ps(at_y1);
-			const __m256 t0 = _mm256_mul_ps(y0, y0);
-			const __m256 t1 = _mm256_mul_ps(t0, t0);
-			const __m256 t2 = _mm256_mul_ps(y0, y1);
-			const __m256 t3 = _mm256_mul_ps(t2, t1);
-			const __m256 t4 = _mm256_mul_ps(t0, y0);
-			const __m256 t5 = _mm256_mul_ps(t4, t4);
-			const __m256 t6 = _mm256_mul_ps(_mm256_set1_ps(0x1.dddddep-2f /* 7/15 */),
-				t5);
-			const __m256 t7 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-1f /* 4/5 */),
-				t3, t6);
-			const __m256 t8 = _mm256_mul_ps(t2, t2);
-			const __m256 t9 = _mm256_mul_ps(t0, t8);
-			const __m256 t10 = _mm256_add_ps(t9, t7);
-			const __m256 t11 = _mm256_mul_ps(t2, t8);
-			const __m256 t12 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.111112p0f /* 16/15 */), t11, t10);
-			const __m256 t13 = _mm256_mul_ps(y1, y1);
-			const __m256 t14 = _mm256_mul_ps(t8, t13);
-			const __m256 t15 = _mm256_add_ps(t14, t12);
-			const __m256 t16 = _mm256_mul_ps(t13, t13);
-			const __m256 t17 = _mm256_mul_ps(t2, t16);
-			const __m256 t18 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-1f /* 4/5 */), t17, t15);
-			const __m256 t19 = _mm256_mul_ps(t13, y1);
-			const __m256 t20 = _mm256_mul_ps(t19, t19);
-			const __m256 t21 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.dddddep-2f /* 7/15 */), t20, t18);
-			const __m256 t22 = _mm256_mul_ps(_mm256_set1_ps(0x1.dddddep0f /* 28/15 */),
-				t5);
-			const __m256 t23 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.666666p0f /* 7/5 */),
-				t3, t22);
-			const __m256 t24 = _mm256_add_ps(t23, t9);
-			const __m256 t25 = _mm256_mul_ps(_mm256_set1_ps(0x1.555556p-1f /* 2/3 */),
-				t11);
-			const __m256 t26 = _mm256_add_ps(t24, t25);
-			const __m256 t27 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-2f /* 2/5 */), t14, t26);
-			const __m256 t28 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */), t17, t27);
-			const __m256 t29 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.111112p-4f /* 1/15 */), t20, t28);
-			const __m256 t30 = _mm256_mul_ps(x0, x0);
-			const __m256 t31 = _mm256_mul_ps(t29, t30);
-			const __m256 t32 = _mm256_mul_ps(x0, x1);
-			const __m256 t33 = _mm256_fmadd_ps(t21, t32, t31);
-			const __m256 t34 = _mm256_mul_ps(_mm256_set1_ps(0x1.111112p-4f /* 1/15 */),
-				t5);
-			const __m256 t35 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-3f /* 1/5 */), t3, t34);
-			const __m256 t36 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.99999ap-2f /* 2/5 */), t9, t35);
-			const __m256 t37 = _mm256_add_ps(t25, t36);
-			const __m256 t38 = _mm256_add_ps(t14, t37);
-			const __m256 t39 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.666666p0f /* 7/5 */),
-				t17, t38);
-			const __m256 t40 = _mm256_fmadd_ps(_mm256_set1_ps(0x1.dddddep0f /* 28/15 */), t20, t39);
-			const __m256 t41 = _mm256_mul_ps(x1, x1);
-			const __m256 t42 = _mm256_fmadd_ps(t40, t41, t33);
-			const __m256 t43 = _mm256_mul_ps(x0, y1);
-			const __m256 t44 = _mm256_mul_ps(x1, y0);
-			const __m256 s = _mm256_sub_ps(t43, t44);
-			acc0 = _mm256_fmadd_ps(s, t42, acc0);
-		}
-		_mm256_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^1 y^7; scheme matrix.
- * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x1y7f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
-		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
-			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
-			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m256 y1 = _mm256_loadu_ps(at_y1);
-			const __m256 t0 = _mm256_mul_ps(y0, y0);
-			const __m256 t1 = _mm256_mul_ps(t0, y0);
-			const __m256 t2 = _mm256_mul_ps(t0, t1);
-			const __m256 t3 = _mm256_mul_ps(y0, y1);
-			const __m256 t4 = _mm256_mul_ps(t3, t2);
-			const __m256 t5 = _mm256_mul_ps(t0, t0);
-			const __m256 t6 = _mm256_mul_ps(t1, t5);
-			const __m256 t7 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t4, t6);
-			const __m256 t8 = _mm256_mul_ps(t3, t3);
-			const __m256 t9 = _mm256_mul_ps(t1, t8);
-			const __m256 t10 = _mm256_fmadd_ps(_mm256_set1_ps(3.0f), t9, t7);
-			const __m256 t11 = _mm256_mul_ps(t3, t8);
-			const __m256 t12 = _mm256_mul_ps(t11, y0);
-			const __m256 t13 = _mm256_fmadd_ps(_mm256_set1_ps(4.0f), t12, t10);
-			const __m256 t14 = _mm256_mul_ps(t11, y1);
-			const __m256 t15 = _mm256_fmadd_ps(_mm256_set1_ps(5.0f), t14, t13);
-			const __m256 t16 = _mm256_mul_ps(y1, y1);
-			const __m256 t17 = _mm256_mul_ps(t16, y1);
-			const __m256 t18 = _mm256_mul_ps(t8, t17);
-			const __m256 t19 = _mm256_fmadd_ps(_mm256_set1_ps(6.0f), t18, t15);
-			const __m256 t20 = _mm256_mul_ps(t16, t17);
-			const __m256 t21 = _mm256_mul_ps(t3, t20);
-			const __m256 t22 = _mm256_fmadd_ps(_mm256_set1_ps(7.0f), t21, t19);
-			const __m256 t23 = _mm256_mul_ps(t16, t16);
-			const __m256 t24 = _mm256_mul_ps(t17, t23);
-			const __m256 t25 = _mm256_fmadd_ps(_mm256_set1_ps(8.0f), t24, t22);
-			const __m256 t26 = _mm256_mul_ps(_mm256_set1_ps(8.0f), t6);
-			const __m256 t27 = _mm256_fmadd_ps(_mm256_set1_ps(7.0f), t4, t26);
-			const __m256 t28 = _mm256_fmadd_ps(_mm256_set1_ps(6.0f), t9, t27);
-			const __m256 t29 = _mm256_fmadd_ps(_mm256_set1_ps(5.0f), t12, t28);
-			const __m256 t30 = _mm256_fmadd_ps(_mm256_set1_ps(4.0f), t14, t29);
-			const __m256 t31 = _mm256_fmadd_ps(_mm256_set1_ps(3.0f), t18, t30);
-			const __m256 t32 = _mm256_fmadd_ps(_mm256_set1_ps(2.0f), t21, t31);
-			const __m256 t33 = _mm256_add_ps(t32, t24);
-			const __m256 t34 = _mm256_mul_ps(t33, x0);
-			const __m256 t35 = _mm256_fmadd_ps(t25, x1, t34);
-			const __m256 t36 = _mm256_mul_ps(x0, y1);
-			const __m256 t37 = _mm256_mul_ps(x1, y0);
-			const __m256 s = _mm256_sub_ps(t36, t37);
-			acc0 = _mm256_fmadd_ps(s, t35, acc0);
-		}
-		_mm256_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^0 y^8; scheme horner.
- * Cost per item: 17 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 10. */
-EW_ATTRIBUTE_AVX2 void ew_ring_x0y8f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
-		__m256 acc0 = _mm256_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
-			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
-			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -2411,11 +2852,9 @@ EW_ATTRIBUTE_AVX2 void ew_ring_x0y8f_avx2(
 			const __m256 t10 = _mm256_fmadd_ps(t8, y0, t9);
 			const __m256 t11 = _mm256_mul_ps(t9, y1);
 			const __m256 t12 = _mm256_fmadd_ps(t10, y0, t11);
-			const __m256 t13 = _mm256_mul_ps(t11, y1);
-			const __m256 t14 = _mm256_fmadd_ps(t12, y0, t13);
-			const __m256 t15 = _mm256_mul_ps(t14, y0);
-			const __m256 t16 = _mm256_fmadd_ps(t13, y1, t15);
-			acc0 = _mm256_fmadd_ps(s, t16, acc0);
+			const __m256 t13 = _mm256_mul_ps(t12, y0);
+			const __m256 t14 = _mm256_fmadd_ps(t11, y1, t13);
+			acc0 = _mm256_fmadd_ps(s, t14, acc0);
 		}
 		_mm256_storeu_ps(sum + pass, acc0);
 	}

@@ -16,72 +16,79 @@
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x0y0f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	const __m512 cx = _mm512_set1_ps(origin);
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
+		const __m512 cx = _mm512_loadu_ps(origin + pass);
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
 		__m512 acc1 = _mm512_loadu_ps(sum + 16 + pass);
-		size_t next = 0;
-		if (next + 48 < count + 3) {
+		size_t i = pass;
+		if (reach == 1 && step == 16 && i + 48 < count + 3) {
 			__m512 xa = _mm512_loadu_ps(x);
 			__m512 ya = _mm512_loadu_ps(y);
-			for (; next + 48 < count + 3; next += 32) {
+			for (; i + 48 < count + 3; i += 32) {
 				{
-					const __m512 xb = _mm512_loadu_ps(x + next + 16);
-					const __m512 yb = _mm512_loadu_ps(y + next + 16);
-				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y2 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 2));
-				const __m512 width = _mm512_sub_ps(x1, cx);
-				const __m512 height = _mm512_sub_ps(y2, y0);
-				acc0 = _mm512_fmadd_ps(width, height, acc0);
+					const __m512 xb = _mm512_loadu_ps(x + i + 16);
+					const __m512 yb = _mm512_loadu_ps(y + i + 16);
+					const __m512 y0 = ya;
+					const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+					const __m512 y2 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 2));
+					const __m512 width = _mm512_sub_ps(x1, cx);
+					const __m512 height = _mm512_sub_ps(y2, y0);
+					acc0 = _mm512_fmadd_ps(width, height, acc0);
 					xa = xb;
 					ya = yb;
 				}
 				{
-					const __m512 xb = _mm512_loadu_ps(x + next + 32);
-					const __m512 yb = _mm512_loadu_ps(y + next + 32);
-				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y2 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 2));
-				const __m512 width = _mm512_sub_ps(x1, cx);
-				const __m512 height = _mm512_sub_ps(y2, y0);
-				acc1 = _mm512_fmadd_ps(width, height, acc1);
+					const __m512 xb = _mm512_loadu_ps(x + i + 32);
+					const __m512 yb = _mm512_loadu_ps(y + i + 32);
+					const __m512 y0 = ya;
+					const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+					const __m512 y2 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 2));
+					const __m512 width = _mm512_sub_ps(x1, cx);
+					const __m512 height = _mm512_sub_ps(y2, y0);
+					acc1 = _mm512_fmadd_ps(width, height, acc1);
 					xa = xb;
 					ya = yb;
 				}
 			}
 		}
-		for (size_t i = next; i < count; i += 32) {
+		for (; i + step + 15 < count; i += 2 * step) {
 			{
-				const size_t rest = count - i;
-				float pad[4][16];
-				const float *at_y0 = rest < 16
-					? ew_ring_padf(pad[0], y + i, rest, 16) : y + i;
-				const __m512 y0 = _mm512_loadu_ps(at_y0);
-				const float *at_x1 = rest < 16
-					? ew_ring_padf(pad[1], x + i + 1, rest, 16) : x + i + 1;
-				const __m512 x1 = _mm512_loadu_ps(at_x1);
-				const float *at_y2 = rest < 16
-					? ew_ring_padf(pad[2], y + i + 2, rest, 16) : y + i + 2;
-				const __m512 y2 = _mm512_loadu_ps(at_y2);
+				const __m512 y0 = _mm512_loadu_ps(y + i);
+				const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+				const __m512 y2 = _mm512_loadu_ps(y + i + 2 * reach);
 				const __m512 width = _mm512_sub_ps(x1, cx);
 				const __m512 height = _mm512_sub_ps(y2, y0);
 				acc0 = _mm512_fmadd_ps(width, height, acc0);
 			}
 			{
-				const size_t rest = count - i > 16 ? count - i - 16 : 0;
-				float pad[4][16];
-				const float *at_y0 = rest < 16
-					? ew_ring_padf(pad[0], y + i + 16, rest, 16) : y + i + 16;
-				const __m512 y0 = _mm512_loadu_ps(at_y0);
-				const float *at_x1 = rest < 16
-					? ew_ring_padf(pad[1], x + i + 17, rest, 16) : x + i + 17;
-				const __m512 x1 = _mm512_loadu_ps(at_x1);
-				const float *at_y2 = rest < 16
-					? ew_ring_padf(pad[2], y + i + 18, rest, 16) : y + i + 18;
-				const __m512 y2 = _mm512_loadu_ps(at_y2);
+				const __m512 y0 = _mm512_loadu_ps(y + i + step);
+				const __m512 x1 = _mm512_loadu_ps(x + i + step + reach);
+				const __m512 y2 = _mm512_loadu_ps(y + i + step + 2 * reach);
+				const __m512 width = _mm512_sub_ps(x1, cx);
+				const __m512 height = _mm512_sub_ps(y2, y0);
+				acc1 = _mm512_fmadd_ps(width, height, acc1);
+			}
+		}
+		for (; i < count; i += 2 * step) {
+			{
+				const size_t rest = count - i;
+				const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+				const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+				const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+				const __m512 y2 = _mm512_maskz_loadu_ps(mask, y + i + 2 * reach);
+				const __m512 width = _mm512_sub_ps(x1, cx);
+				const __m512 height = _mm512_sub_ps(y2, y0);
+				acc0 = _mm512_fmadd_ps(width, height, acc0);
+			}
+			{
+				const size_t rest = count - i > step ? count - i - step : 0;
+				const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+				const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i + step);
+				const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + step + reach);
+				const __m512 y2 = _mm512_maskz_loadu_ps(mask, y + i + step + 2 * reach);
 				const __m512 width = _mm512_sub_ps(x1, cx);
 				const __m512 height = _mm512_sub_ps(y2, y0);
 				acc1 = _mm512_fmadd_ps(width, height, acc1);
@@ -95,48 +102,52 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y0f_avx512(
 /* integral of x^1 y^0; scheme matrix.
  * Cost per item: 3 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 3. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x1y0f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		size_t next = 0;
-		if (next + 32 < count + 2) {
+		size_t i = pass;
+		if (reach == 1 && step == 16 && i + 32 < count + 2) {
 			__m512 xa = _mm512_loadu_ps(x);
 			__m512 ya = _mm512_loadu_ps(y);
-			for (; next + 32 < count + 2; next += 16) {
+			for (; i + 32 < count + 2; i += 16) {
 				{
-					const __m512 xb = _mm512_loadu_ps(x + next + 16);
-					const __m512 yb = _mm512_loadu_ps(y + next + 16);
-				const __m512 x0 = xa;
-				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
-				const __m512 t0 = _mm512_mul_ps(x0, y1);
-				const __m512 t1 = _mm512_mul_ps(x1, y0);
-				const __m512 s = _mm512_sub_ps(t0, t1);
-				const __m512 t2 = _mm512_add_ps(x0, x1);
-				acc0 = _mm512_fmadd_ps(s, t2, acc0);
+					const __m512 xb = _mm512_loadu_ps(x + i + 16);
+					const __m512 yb = _mm512_loadu_ps(y + i + 16);
+					const __m512 x0 = xa;
+					const __m512 y0 = ya;
+					const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+					const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
+					const __m512 t0 = _mm512_mul_ps(x0, y1);
+					const __m512 t1 = _mm512_mul_ps(x1, y0);
+					const __m512 s = _mm512_sub_ps(t0, t1);
+					const __m512 t2 = _mm512_add_ps(x0, x1);
+					acc0 = _mm512_fmadd_ps(s, t2, acc0);
 					xa = xb;
 					ya = yb;
 				}
 			}
 		}
-		for (size_t i = next; i < count; i += 16) {
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_add_ps(x0, x1);
+			acc0 = _mm512_fmadd_ps(s, t2, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -150,48 +161,52 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y0f_avx512(
 /* integral of x^0 y^1; scheme matrix.
  * Cost per item: 3 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 3. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x0y1f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		size_t next = 0;
-		if (next + 32 < count + 2) {
+		size_t i = pass;
+		if (reach == 1 && step == 16 && i + 32 < count + 2) {
 			__m512 xa = _mm512_loadu_ps(x);
 			__m512 ya = _mm512_loadu_ps(y);
-			for (; next + 32 < count + 2; next += 16) {
+			for (; i + 32 < count + 2; i += 16) {
 				{
-					const __m512 xb = _mm512_loadu_ps(x + next + 16);
-					const __m512 yb = _mm512_loadu_ps(y + next + 16);
-				const __m512 x0 = xa;
-				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
-				const __m512 t0 = _mm512_mul_ps(x0, y1);
-				const __m512 t1 = _mm512_mul_ps(x1, y0);
-				const __m512 s = _mm512_sub_ps(t0, t1);
-				const __m512 t2 = _mm512_add_ps(y0, y1);
-				acc0 = _mm512_fmadd_ps(s, t2, acc0);
+					const __m512 xb = _mm512_loadu_ps(x + i + 16);
+					const __m512 yb = _mm512_loadu_ps(y + i + 16);
+					const __m512 x0 = xa;
+					const __m512 y0 = ya;
+					const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+					const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
+					const __m512 t0 = _mm512_mul_ps(x0, y1);
+					const __m512 t1 = _mm512_mul_ps(x1, y0);
+					const __m512 s = _mm512_sub_ps(t0, t1);
+					const __m512 t2 = _mm512_add_ps(y0, y1);
+					acc0 = _mm512_fmadd_ps(s, t2, acc0);
 					xa = xb;
 					ya = yb;
 				}
 			}
 		}
-		for (size_t i = next; i < count; i += 16) {
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_add_ps(y0, y1);
+			acc0 = _mm512_fmadd_ps(s, t2, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -205,50 +220,56 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y1f_avx512(
 /* integral of x^2 y^0; scheme horner.
  * Cost per item: 5 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 4. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x2y0f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		size_t next = 0;
-		if (next + 32 < count + 2) {
+		size_t i = pass;
+		if (reach == 1 && step == 16 && i + 32 < count + 2) {
 			__m512 xa = _mm512_loadu_ps(x);
 			__m512 ya = _mm512_loadu_ps(y);
-			for (; next + 32 < count + 2; next += 16) {
+			for (; i + 32 < count + 2; i += 16) {
 				{
-					const __m512 xb = _mm512_loadu_ps(x + next + 16);
-					const __m512 yb = _mm512_loadu_ps(y + next + 16);
-				const __m512 x0 = xa;
-				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
-				const __m512 t0 = _mm512_mul_ps(x0, y1);
-				const __m512 t1 = _mm512_mul_ps(x1, y0);
-				const __m512 s = _mm512_sub_ps(t0, t1);
-				const __m512 t2 = _mm512_add_ps(x0, x1);
-				const __m512 t3 = _mm512_mul_ps(t2, x0);
-				const __m512 t4 = _mm512_fmadd_ps(x1, x1, t3);
-				acc0 = _mm512_fmadd_ps(s, t4, acc0);
+					const __m512 xb = _mm512_loadu_ps(x + i + 16);
+					const __m512 yb = _mm512_loadu_ps(y + i + 16);
+					const __m512 x0 = xa;
+					const __m512 y0 = ya;
+					const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+					const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
+					const __m512 t0 = _mm512_mul_ps(x0, y1);
+					const __m512 t1 = _mm512_mul_ps(x1, y0);
+					const __m512 s = _mm512_sub_ps(t0, t1);
+					const __m512 t2 = _mm512_add_ps(x0, x1);
+					const __m512 t3 = _mm512_mul_ps(t2, x0);
+					const __m512 t4 = _mm512_fmadd_ps(x1, x1, t3);
+					acc0 = _mm512_fmadd_ps(s, t4, acc0);
 					xa = xb;
 					ya = yb;
 				}
 			}
 		}
-		for (size_t i = next; i < count; i += 16) {
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_add_ps(x0, x1);
+			const __m512 t3 = _mm512_mul_ps(t2, x0);
+			const __m512 t4 = _mm512_fmadd_ps(x1, x1, t3);
+			acc0 = _mm512_fmadd_ps(s, t4, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -264,26 +285,34 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y0f_avx512(
 /* integral of x^1 y^1; scheme matrix.
  * Cost per item: 7 mul or fma, 1 add; 1 accumulators, 7 values alive, depth 4. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x1y1f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), y1, y0);
+			const __m512 t3 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), y0, y1);
+			const __m512 t4 = _mm512_mul_ps(t3, x0);
+			const __m512 t5 = _mm512_fmadd_ps(t2, x1, t4);
+			acc0 = _mm512_fmadd_ps(s, t5, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -300,50 +329,56 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y1f_avx512(
 /* integral of x^0 y^2; scheme horner.
  * Cost per item: 5 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 4. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x0y2f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		size_t next = 0;
-		if (next + 32 < count + 2) {
+		size_t i = pass;
+		if (reach == 1 && step == 16 && i + 32 < count + 2) {
 			__m512 xa = _mm512_loadu_ps(x);
 			__m512 ya = _mm512_loadu_ps(y);
-			for (; next + 32 < count + 2; next += 16) {
+			for (; i + 32 < count + 2; i += 16) {
 				{
-					const __m512 xb = _mm512_loadu_ps(x + next + 16);
-					const __m512 yb = _mm512_loadu_ps(y + next + 16);
-				const __m512 x0 = xa;
-				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
-				const __m512 t0 = _mm512_mul_ps(x0, y1);
-				const __m512 t1 = _mm512_mul_ps(x1, y0);
-				const __m512 s = _mm512_sub_ps(t0, t1);
-				const __m512 t2 = _mm512_add_ps(y0, y1);
-				const __m512 t3 = _mm512_mul_ps(t2, y0);
-				const __m512 t4 = _mm512_fmadd_ps(y1, y1, t3);
-				acc0 = _mm512_fmadd_ps(s, t4, acc0);
+					const __m512 xb = _mm512_loadu_ps(x + i + 16);
+					const __m512 yb = _mm512_loadu_ps(y + i + 16);
+					const __m512 x0 = xa;
+					const __m512 y0 = ya;
+					const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+					const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
+					const __m512 t0 = _mm512_mul_ps(x0, y1);
+					const __m512 t1 = _mm512_mul_ps(x1, y0);
+					const __m512 s = _mm512_sub_ps(t0, t1);
+					const __m512 t2 = _mm512_add_ps(y0, y1);
+					const __m512 t3 = _mm512_mul_ps(t2, y0);
+					const __m512 t4 = _mm512_fmadd_ps(y1, y1, t3);
+					acc0 = _mm512_fmadd_ps(s, t4, acc0);
 					xa = xb;
 					ya = yb;
 				}
 			}
 		}
-		for (size_t i = next; i < count; i += 16) {
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_add_ps(y0, y1);
+			const __m512 t3 = _mm512_mul_ps(t2, y0);
+			const __m512 t4 = _mm512_fmadd_ps(y1, y1, t3);
+			acc0 = _mm512_fmadd_ps(s, t4, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -359,52 +394,60 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y2f_avx512(
 /* integral of x^3 y^0; scheme even-power.
  * Cost per item: 6 mul or fma, 3 add; 1 accumulators, 5 values alive, depth 5. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x3y0f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		size_t next = 0;
-		if (next + 32 < count + 2) {
+		size_t i = pass;
+		if (reach == 1 && step == 16 && i + 32 < count + 2) {
 			__m512 xa = _mm512_loadu_ps(x);
 			__m512 ya = _mm512_loadu_ps(y);
-			for (; next + 32 < count + 2; next += 16) {
+			for (; i + 32 < count + 2; i += 16) {
 				{
-					const __m512 xb = _mm512_loadu_ps(x + next + 16);
-					const __m512 yb = _mm512_loadu_ps(y + next + 16);
-				const __m512 x0 = xa;
-				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
-				const __m512 t0 = _mm512_mul_ps(x0, y1);
-				const __m512 t1 = _mm512_mul_ps(x1, y0);
-				const __m512 s = _mm512_sub_ps(t0, t1);
-				const __m512 a = _mm512_add_ps(x0, x1);
-				const __m512 e = _mm512_sub_ps(x1, x0);
-				const __m512 t2 = _mm512_mul_ps(a, a);
-				const __m512 t3 = _mm512_fmadd_ps(e, e, t2);
-				const __m512 t4 = _mm512_mul_ps(a, t3);
-				acc0 = _mm512_fmadd_ps(s, t4, acc0);
+					const __m512 xb = _mm512_loadu_ps(x + i + 16);
+					const __m512 yb = _mm512_loadu_ps(y + i + 16);
+					const __m512 x0 = xa;
+					const __m512 y0 = ya;
+					const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+					const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
+					const __m512 t0 = _mm512_mul_ps(x0, y1);
+					const __m512 t1 = _mm512_mul_ps(x1, y0);
+					const __m512 s = _mm512_sub_ps(t0, t1);
+					const __m512 a = _mm512_add_ps(x0, x1);
+					const __m512 e = _mm512_sub_ps(x1, x0);
+					const __m512 t2 = _mm512_mul_ps(a, a);
+					const __m512 t3 = _mm512_fmadd_ps(e, e, t2);
+					const __m512 t4 = _mm512_mul_ps(a, t3);
+					acc0 = _mm512_fmadd_ps(s, t4, acc0);
 					xa = xb;
 					ya = yb;
 				}
 			}
 		}
-		for (size_t i = next; i < count; i += 16) {
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 t2 = _mm512_mul_ps(a, a);
+			const __m512 t3 = _mm512_fmadd_ps(e, e, t2);
+			const __m512 t4 = _mm512_mul_ps(a, t3);
+			acc0 = _mm512_fmadd_ps(s, t4, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -422,26 +465,41 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y0f_avx512(
 /* integral of x^2 y^1; scheme even-power.
  * Cost per item: 10 mul or fma, 5 add; 1 accumulators, 7 values alive, depth 7. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x2y1f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 t2 = _mm512_mul_ps(a, a);
+			const __m512 t3 = _mm512_mul_ps(_mm512_set1_ps(3.0f), t2);
+			const __m512 t4 = _mm512_fmadd_ps(e, e, t3);
+			const __m512 t5 = _mm512_mul_ps(b, t4);
+			const __m512 t6 = _mm512_mul_ps(a, e);
+			const __m512 t7 = _mm512_mul_ps(f, t6);
+			const __m512 t8 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t7, t5);
+			acc0 = _mm512_fmadd_ps(s, t8, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -465,26 +523,41 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y1f_avx512(
 /* integral of x^1 y^2; scheme even-power.
  * Cost per item: 10 mul or fma, 5 add; 1 accumulators, 7 values alive, depth 7. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x1y2f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 t2 = _mm512_mul_ps(b, b);
+			const __m512 t3 = _mm512_mul_ps(_mm512_set1_ps(3.0f), t2);
+			const __m512 t4 = _mm512_fmadd_ps(f, f, t3);
+			const __m512 t5 = _mm512_mul_ps(a, t4);
+			const __m512 t6 = _mm512_mul_ps(b, f);
+			const __m512 t7 = _mm512_mul_ps(e, t6);
+			const __m512 t8 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t7, t5);
+			acc0 = _mm512_fmadd_ps(s, t8, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -508,52 +581,60 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y2f_avx512(
 /* integral of x^0 y^3; scheme even-power.
  * Cost per item: 6 mul or fma, 3 add; 1 accumulators, 5 values alive, depth 5. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x0y3f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		size_t next = 0;
-		if (next + 32 < count + 2) {
+		size_t i = pass;
+		if (reach == 1 && step == 16 && i + 32 < count + 2) {
 			__m512 xa = _mm512_loadu_ps(x);
 			__m512 ya = _mm512_loadu_ps(y);
-			for (; next + 32 < count + 2; next += 16) {
+			for (; i + 32 < count + 2; i += 16) {
 				{
-					const __m512 xb = _mm512_loadu_ps(x + next + 16);
-					const __m512 yb = _mm512_loadu_ps(y + next + 16);
-				const __m512 x0 = xa;
-				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
-				const __m512 t0 = _mm512_mul_ps(x0, y1);
-				const __m512 t1 = _mm512_mul_ps(x1, y0);
-				const __m512 s = _mm512_sub_ps(t0, t1);
-				const __m512 b = _mm512_add_ps(y0, y1);
-				const __m512 f = _mm512_sub_ps(y1, y0);
-				const __m512 t2 = _mm512_mul_ps(b, b);
-				const __m512 t3 = _mm512_fmadd_ps(f, f, t2);
-				const __m512 t4 = _mm512_mul_ps(b, t3);
-				acc0 = _mm512_fmadd_ps(s, t4, acc0);
+					const __m512 xb = _mm512_loadu_ps(x + i + 16);
+					const __m512 yb = _mm512_loadu_ps(y + i + 16);
+					const __m512 x0 = xa;
+					const __m512 y0 = ya;
+					const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+					const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
+					const __m512 t0 = _mm512_mul_ps(x0, y1);
+					const __m512 t1 = _mm512_mul_ps(x1, y0);
+					const __m512 s = _mm512_sub_ps(t0, t1);
+					const __m512 b = _mm512_add_ps(y0, y1);
+					const __m512 f = _mm512_sub_ps(y1, y0);
+					const __m512 t2 = _mm512_mul_ps(b, b);
+					const __m512 t3 = _mm512_fmadd_ps(f, f, t2);
+					const __m512 t4 = _mm512_mul_ps(b, t3);
+					acc0 = _mm512_fmadd_ps(s, t4, acc0);
 					xa = xb;
 					ya = yb;
 				}
 			}
 		}
-		for (size_t i = next; i < count; i += 16) {
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 t2 = _mm512_mul_ps(b, b);
+			const __m512 t3 = _mm512_fmadd_ps(f, f, t2);
+			const __m512 t4 = _mm512_mul_ps(b, t3);
+			acc0 = _mm512_fmadd_ps(s, t4, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -571,26 +652,37 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y3f_avx512(
 /* integral of x^4 y^0; scheme horner.
  * Cost per item: 9 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 6. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x4y0f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_add_ps(x0, x1);
+			const __m512 t3 = _mm512_mul_ps(x1, x1);
+			const __m512 t4 = _mm512_fmadd_ps(t2, x0, t3);
+			const __m512 t5 = _mm512_mul_ps(t3, x1);
+			const __m512 t6 = _mm512_fmadd_ps(t4, x0, t5);
+			const __m512 t7 = _mm512_mul_ps(t6, x0);
+			const __m512 t8 = _mm512_fmadd_ps(t5, x1, t7);
+			acc0 = _mm512_fmadd_ps(s, t8, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -610,26 +702,43 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x4y0f_avx512(
 /* integral of x^3 y^1; scheme even-power.
  * Cost per item: 10 mul or fma, 6 add; 1 accumulators, 9 values alive, depth 6. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x3y1f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 t2 = _mm512_mul_ps(a, a);
+			const __m512 t3 = _mm512_mul_ps(e, e);
+			const __m512 t4 = _mm512_add_ps(t2, t3);
+			const __m512 t5 = _mm512_mul_ps(a, b);
+			const __m512 t6 = _mm512_mul_ps(t4, t5);
+			const __m512 t7 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */),
+				t3, t2);
+			const __m512 t8 = _mm512_mul_ps(e, f);
+			const __m512 t9 = _mm512_fmadd_ps(t7, t8, t6);
+			acc0 = _mm512_fmadd_ps(s, t9, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -655,26 +764,46 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y1f_avx512(
 /* integral of x^2 y^2; scheme even-power.
  * Cost per item: 15 mul or fma, 5 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x2y2f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 t2 = _mm512_mul_ps(b, b);
+			const __m512 t3 = _mm512_mul_ps(f, f);
+			const __m512 t4 = _mm512_fmadd_ps(_mm512_set1_ps(3.0f), t2, t3);
+			const __m512 t5 = _mm512_mul_ps(a, a);
+			const __m512 t6 = _mm512_mul_ps(t4, t5);
+			const __m512 t7 = _mm512_mul_ps(a, e);
+			const __m512 t8 = _mm512_mul_ps(b, f);
+			const __m512 t9 = _mm512_mul_ps(t7, t8);
+			const __m512 t10 = _mm512_fmadd_ps(_mm512_set1_ps(4.0f), t9, t6);
+			const __m512 t11 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p-1f /* 3/5 */), t3, t2);
+			const __m512 t12 = _mm512_mul_ps(e, e);
+			const __m512 t13 = _mm512_fmadd_ps(t11, t12, t10);
+			acc0 = _mm512_fmadd_ps(s, t13, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -703,26 +832,43 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y2f_avx512(
 /* integral of x^1 y^3; scheme even-power.
  * Cost per item: 10 mul or fma, 6 add; 1 accumulators, 9 values alive, depth 6. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x1y3f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 t2 = _mm512_mul_ps(b, b);
+			const __m512 t3 = _mm512_mul_ps(f, f);
+			const __m512 t4 = _mm512_add_ps(t2, t3);
+			const __m512 t5 = _mm512_mul_ps(a, b);
+			const __m512 t6 = _mm512_mul_ps(t4, t5);
+			const __m512 t7 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */),
+				t3, t2);
+			const __m512 t8 = _mm512_mul_ps(e, f);
+			const __m512 t9 = _mm512_fmadd_ps(t7, t8, t6);
+			acc0 = _mm512_fmadd_ps(s, t9, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -748,26 +894,37 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y3f_avx512(
 /* integral of x^0 y^4; scheme horner.
  * Cost per item: 9 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 6. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x0y4f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_add_ps(y0, y1);
+			const __m512 t3 = _mm512_mul_ps(y1, y1);
+			const __m512 t4 = _mm512_fmadd_ps(t2, y0, t3);
+			const __m512 t5 = _mm512_mul_ps(t3, y1);
+			const __m512 t6 = _mm512_fmadd_ps(t4, y0, t5);
+			const __m512 t7 = _mm512_mul_ps(t6, y0);
+			const __m512 t8 = _mm512_fmadd_ps(t5, y1, t7);
+			acc0 = _mm512_fmadd_ps(s, t8, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -787,26 +944,39 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y4f_avx512(
 /* integral of x^5 y^0; scheme horner.
  * Cost per item: 11 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 7. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x5y0f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_add_ps(x0, x1);
+			const __m512 t3 = _mm512_mul_ps(x1, x1);
+			const __m512 t4 = _mm512_fmadd_ps(t2, x0, t3);
+			const __m512 t5 = _mm512_mul_ps(t3, x1);
+			const __m512 t6 = _mm512_fmadd_ps(t4, x0, t5);
+			const __m512 t7 = _mm512_mul_ps(t5, x1);
+			const __m512 t8 = _mm512_fmadd_ps(t6, x0, t7);
+			const __m512 t9 = _mm512_mul_ps(t8, x0);
+			const __m512 t10 = _mm512_fmadd_ps(t7, x1, t9);
+			acc0 = _mm512_fmadd_ps(s, t10, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -828,26 +998,49 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x5y0f_avx512(
 /* integral of x^4 y^1; scheme even-power.
  * Cost per item: 16 mul or fma, 5 add; 1 accumulators, 9 values alive, depth 8. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x4y1f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 t2 = _mm512_mul_ps(a, a);
+			const __m512 t3 = _mm512_mul_ps(t2, t2);
+			const __m512 t4 = _mm512_mul_ps(a, e);
+			const __m512 t5 = _mm512_mul_ps(t4, t4);
+			const __m512 t6 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t5, t3);
+			const __m512 t7 = _mm512_mul_ps(e, e);
+			const __m512 t8 = _mm512_mul_ps(t7, t7);
+			const __m512 t9 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */),
+				t8, t6);
+			const __m512 t10 = _mm512_mul_ps(b, t9);
+			const __m512 t11 = _mm512_mul_ps(_mm512_set1_ps(0x1.555556p0f /* 4/3 */),
+				t2);
+			const __m512 t12 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-1f /* 4/5 */), t7, t11);
+			const __m512 t13 = _mm512_mul_ps(f, t4);
+			const __m512 t14 = _mm512_fmadd_ps(t12, t13, t10);
+			acc0 = _mm512_fmadd_ps(s, t14, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -879,26 +1072,52 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x4y1f_avx512(
 /* integral of x^3 y^2; scheme even-power.
  * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x3y2f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 t2 = _mm512_mul_ps(a, a);
+			const __m512 t3 = _mm512_mul_ps(e, e);
+			const __m512 t4 = _mm512_add_ps(t2, t3);
+			const __m512 t5 = _mm512_mul_ps(b, b);
+			const __m512 t6 = _mm512_mul_ps(a, t5);
+			const __m512 t7 = _mm512_mul_ps(t4, t6);
+			const __m512 t8 = _mm512_mul_ps(_mm512_set1_ps(2.0f), t2);
+			const __m512 t9 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-2f /* 2/5 */),
+				t3, t8);
+			const __m512 t10 = _mm512_mul_ps(b, f);
+			const __m512 t11 = _mm512_mul_ps(e, t10);
+			const __m512 t12 = _mm512_fmadd_ps(t9, t11, t7);
+			const __m512 t13 = _mm512_mul_ps(_mm512_set1_ps(0x1.555556p-2f /* 1/3 */),
+				t2);
+			const __m512 t14 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p-1f /* 3/5 */), t3, t13);
+			const __m512 t15 = _mm512_mul_ps(f, f);
+			const __m512 t16 = _mm512_mul_ps(a, t15);
+			const __m512 t17 = _mm512_fmadd_ps(t14, t16, t12);
+			acc0 = _mm512_fmadd_ps(s, t17, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -933,26 +1152,52 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y2f_avx512(
 /* integral of x^2 y^3; scheme even-power.
  * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x2y3f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 t2 = _mm512_mul_ps(b, b);
+			const __m512 t3 = _mm512_mul_ps(f, f);
+			const __m512 t4 = _mm512_add_ps(t2, t3);
+			const __m512 t5 = _mm512_mul_ps(a, a);
+			const __m512 t6 = _mm512_mul_ps(b, t5);
+			const __m512 t7 = _mm512_mul_ps(t4, t6);
+			const __m512 t8 = _mm512_mul_ps(_mm512_set1_ps(2.0f), t2);
+			const __m512 t9 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-2f /* 2/5 */),
+				t3, t8);
+			const __m512 t10 = _mm512_mul_ps(a, e);
+			const __m512 t11 = _mm512_mul_ps(f, t10);
+			const __m512 t12 = _mm512_fmadd_ps(t9, t11, t7);
+			const __m512 t13 = _mm512_mul_ps(_mm512_set1_ps(0x1.555556p-2f /* 1/3 */),
+				t2);
+			const __m512 t14 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p-1f /* 3/5 */), t3, t13);
+			const __m512 t15 = _mm512_mul_ps(e, e);
+			const __m512 t16 = _mm512_mul_ps(b, t15);
+			const __m512 t17 = _mm512_fmadd_ps(t14, t16, t12);
+			acc0 = _mm512_fmadd_ps(s, t17, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -987,26 +1232,49 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y3f_avx512(
 /* integral of x^1 y^4; scheme even-power.
  * Cost per item: 16 mul or fma, 5 add; 1 accumulators, 9 values alive, depth 8. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x1y4f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 t2 = _mm512_mul_ps(b, b);
+			const __m512 t3 = _mm512_mul_ps(t2, t2);
+			const __m512 t4 = _mm512_mul_ps(b, f);
+			const __m512 t5 = _mm512_mul_ps(t4, t4);
+			const __m512 t6 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t5, t3);
+			const __m512 t7 = _mm512_mul_ps(f, f);
+			const __m512 t8 = _mm512_mul_ps(t7, t7);
+			const __m512 t9 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */),
+				t8, t6);
+			const __m512 t10 = _mm512_mul_ps(a, t9);
+			const __m512 t11 = _mm512_mul_ps(_mm512_set1_ps(0x1.555556p0f /* 4/3 */),
+				t2);
+			const __m512 t12 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-1f /* 4/5 */), t7, t11);
+			const __m512 t13 = _mm512_mul_ps(e, t4);
+			const __m512 t14 = _mm512_fmadd_ps(t12, t13, t10);
+			acc0 = _mm512_fmadd_ps(s, t14, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -1038,26 +1306,39 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y4f_avx512(
 /* integral of x^0 y^5; scheme horner.
  * Cost per item: 11 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 7. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x0y5f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_add_ps(y0, y1);
+			const __m512 t3 = _mm512_mul_ps(y1, y1);
+			const __m512 t4 = _mm512_fmadd_ps(t2, y0, t3);
+			const __m512 t5 = _mm512_mul_ps(t3, y1);
+			const __m512 t6 = _mm512_fmadd_ps(t4, y0, t5);
+			const __m512 t7 = _mm512_mul_ps(t5, y1);
+			const __m512 t8 = _mm512_fmadd_ps(t6, y0, t7);
+			const __m512 t9 = _mm512_mul_ps(t8, y0);
+			const __m512 t10 = _mm512_fmadd_ps(t7, y1, t9);
+			acc0 = _mm512_fmadd_ps(s, t10, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -1079,26 +1360,41 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y5f_avx512(
 /* integral of x^6 y^0; scheme horner.
  * Cost per item: 13 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 8. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x6y0f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_add_ps(x0, x1);
+			const __m512 t3 = _mm512_mul_ps(x1, x1);
+			const __m512 t4 = _mm512_fmadd_ps(t2, x0, t3);
+			const __m512 t5 = _mm512_mul_ps(t3, x1);
+			const __m512 t6 = _mm512_fmadd_ps(t4, x0, t5);
+			const __m512 t7 = _mm512_mul_ps(t5, x1);
+			const __m512 t8 = _mm512_fmadd_ps(t6, x0, t7);
+			const __m512 t9 = _mm512_mul_ps(t7, x1);
+			const __m512 t10 = _mm512_fmadd_ps(t8, x0, t9);
+			const __m512 t11 = _mm512_mul_ps(t10, x0);
+			const __m512 t12 = _mm512_fmadd_ps(t9, x1, t11);
+			acc0 = _mm512_fmadd_ps(s, t12, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -1122,26 +1418,52 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x6y0f_avx512(
 /* integral of x^5 y^1; scheme even-power.
  * Cost per item: 17 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 8. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x5y1f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 t0 = _mm512_mul_ps(a, e);
+			const __m512 t1 = _mm512_mul_ps(t0, t0);
+			const __m512 t2 = _mm512_mul_ps(a, a);
+			const __m512 t3 = _mm512_mul_ps(t2, t2);
+			const __m512 t4 = _mm512_mul_ps(_mm512_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t3);
+			const __m512 t5 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t1, t4);
+			const __m512 t6 = _mm512_mul_ps(e, e);
+			const __m512 t7 = _mm512_mul_ps(t6, t6);
+			const __m512 t8 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.24924ap-3f /* 1/7 */),
+				t7, t5);
+			const __m512 t9 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.aaaaaap1f /* 10/3 */),
+				t1, t3);
+			const __m512 t10 = _mm512_add_ps(t9, t7);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 t11 = _mm512_mul_ps(a, b);
+			const __m512 t12 = _mm512_mul_ps(t10, t11);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 t13 = _mm512_mul_ps(e, f);
+			const __m512 t14 = _mm512_fmadd_ps(t8, t13, t12);
+			const __m512 t15 = _mm512_mul_ps(x0, y1);
+			const __m512 t16 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t15, t16);
+			acc0 = _mm512_fmadd_ps(s, t14, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 a = _mm512_add_ps(x0, x1);
 			const __m512 e = _mm512_sub_ps(x1, x0);
 			const __m512 t0 = _mm512_mul_ps(a, e);
@@ -1176,26 +1498,59 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x5y1f_avx512(
 /* integral of x^4 y^2; scheme even-power.
  * Cost per item: 23 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x4y2f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 t2 = _mm512_mul_ps(a, a);
+			const __m512 t3 = _mm512_mul_ps(t2, t2);
+			const __m512 t4 = _mm512_mul_ps(a, e);
+			const __m512 t5 = _mm512_mul_ps(t4, t4);
+			const __m512 t6 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t5, t3);
+			const __m512 t7 = _mm512_mul_ps(e, e);
+			const __m512 t8 = _mm512_mul_ps(t7, t7);
+			const __m512 t9 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */),
+				t8, t6);
+			const __m512 t10 = _mm512_mul_ps(b, b);
+			const __m512 t11 = _mm512_mul_ps(t9, t10);
+			const __m512 t12 = _mm512_mul_ps(_mm512_set1_ps(0x1.555556p1f /* 8/3 */),
+				t2);
+			const __m512 t13 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap0f /* 8/5 */),
+				t7, t12);
+			const __m512 t14 = _mm512_mul_ps(b, f);
+			const __m512 t15 = _mm512_mul_ps(t4, t14);
+			const __m512 t16 = _mm512_fmadd_ps(t13, t15, t11);
+			const __m512 t17 = _mm512_mul_ps(_mm512_set1_ps(0x1.555556p-2f /* 1/3 */),
+				t3);
+			const __m512 t18 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p0f /* 6/5 */),
+				t5, t17);
+			const __m512 t19 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.24924ap-3f /* 1/7 */), t8, t18);
+			const __m512 t20 = _mm512_mul_ps(f, f);
+			const __m512 t21 = _mm512_fmadd_ps(t19, t20, t16);
+			acc0 = _mm512_fmadd_ps(s, t21, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -1237,26 +1592,58 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x4y2f_avx512(
 /* integral of x^3 y^3; scheme even-power.
  * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x3y3f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 t2 = _mm512_mul_ps(b, b);
+			const __m512 t3 = _mm512_mul_ps(_mm512_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t2);
+			const __m512 t4 = _mm512_mul_ps(f, f);
+			const __m512 t5 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t4, t3);
+			const __m512 t6 = _mm512_mul_ps(a, a);
+			const __m512 t7 = _mm512_mul_ps(a, t6);
+			const __m512 t8 = _mm512_mul_ps(b, t7);
+			const __m512 t9 = _mm512_mul_ps(t5, t8);
+			const __m512 t10 = _mm512_fmadd_ps(_mm512_set1_ps(5.0f), t2, t4);
+			const __m512 t11 = _mm512_mul_ps(a, e);
+			const __m512 t12 = _mm512_mul_ps(a, t11);
+			const __m512 t13 = _mm512_mul_ps(f, t12);
+			const __m512 t14 = _mm512_fmadd_ps(t10, t13, t9);
+			const __m512 t15 = _mm512_fmadd_ps(_mm512_set1_ps(3.0f), t4, t3);
+			const __m512 t16 = _mm512_mul_ps(e, t11);
+			const __m512 t17 = _mm512_mul_ps(b, t16);
+			const __m512 t18 = _mm512_fmadd_ps(t15, t17, t14);
+			const __m512 t19 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.e79e7ap-3f /* 5/21 */), t4, t2);
+			const __m512 t20 = _mm512_mul_ps(e, e);
+			const __m512 t21 = _mm512_mul_ps(e, t20);
+			const __m512 t22 = _mm512_mul_ps(f, t21);
+			const __m512 t23 = _mm512_fmadd_ps(t19, t22, t18);
+			acc0 = _mm512_fmadd_ps(s, t23, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -1297,26 +1684,59 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y3f_avx512(
 /* integral of x^2 y^4; scheme even-power.
  * Cost per item: 23 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x2y4f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 t2 = _mm512_mul_ps(b, b);
+			const __m512 t3 = _mm512_mul_ps(t2, t2);
+			const __m512 t4 = _mm512_mul_ps(b, f);
+			const __m512 t5 = _mm512_mul_ps(t4, t4);
+			const __m512 t6 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t5, t3);
+			const __m512 t7 = _mm512_mul_ps(f, f);
+			const __m512 t8 = _mm512_mul_ps(t7, t7);
+			const __m512 t9 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */),
+				t8, t6);
+			const __m512 t10 = _mm512_mul_ps(a, a);
+			const __m512 t11 = _mm512_mul_ps(t9, t10);
+			const __m512 t12 = _mm512_mul_ps(_mm512_set1_ps(0x1.555556p1f /* 8/3 */),
+				t2);
+			const __m512 t13 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap0f /* 8/5 */),
+				t7, t12);
+			const __m512 t14 = _mm512_mul_ps(a, e);
+			const __m512 t15 = _mm512_mul_ps(t4, t14);
+			const __m512 t16 = _mm512_fmadd_ps(t13, t15, t11);
+			const __m512 t17 = _mm512_mul_ps(_mm512_set1_ps(0x1.555556p-2f /* 1/3 */),
+				t3);
+			const __m512 t18 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p0f /* 6/5 */),
+				t5, t17);
+			const __m512 t19 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.24924ap-3f /* 1/7 */), t8, t18);
+			const __m512 t20 = _mm512_mul_ps(e, e);
+			const __m512 t21 = _mm512_fmadd_ps(t19, t20, t16);
+			acc0 = _mm512_fmadd_ps(s, t21, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -1358,26 +1778,52 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y4f_avx512(
 /* integral of x^1 y^5; scheme even-power.
  * Cost per item: 17 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 8. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x1y5f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 t0 = _mm512_mul_ps(b, f);
+			const __m512 t1 = _mm512_mul_ps(t0, t0);
+			const __m512 t2 = _mm512_mul_ps(b, b);
+			const __m512 t3 = _mm512_mul_ps(t2, t2);
+			const __m512 t4 = _mm512_mul_ps(_mm512_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t3);
+			const __m512 t5 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t1, t4);
+			const __m512 t6 = _mm512_mul_ps(f, f);
+			const __m512 t7 = _mm512_mul_ps(t6, t6);
+			const __m512 t8 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.24924ap-3f /* 1/7 */),
+				t7, t5);
+			const __m512 t9 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.aaaaaap1f /* 10/3 */),
+				t1, t3);
+			const __m512 t10 = _mm512_add_ps(t9, t7);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 t11 = _mm512_mul_ps(a, b);
+			const __m512 t12 = _mm512_mul_ps(t10, t11);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 t13 = _mm512_mul_ps(e, f);
+			const __m512 t14 = _mm512_fmadd_ps(t8, t13, t12);
+			const __m512 t15 = _mm512_mul_ps(x0, y1);
+			const __m512 t16 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t15, t16);
+			acc0 = _mm512_fmadd_ps(s, t14, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 b = _mm512_add_ps(y0, y1);
 			const __m512 f = _mm512_sub_ps(y1, y0);
 			const __m512 t0 = _mm512_mul_ps(b, f);
@@ -1412,26 +1858,41 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y5f_avx512(
 /* integral of x^0 y^6; scheme horner.
  * Cost per item: 13 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 8. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x0y6f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_add_ps(y0, y1);
+			const __m512 t3 = _mm512_mul_ps(y1, y1);
+			const __m512 t4 = _mm512_fmadd_ps(t2, y0, t3);
+			const __m512 t5 = _mm512_mul_ps(t3, y1);
+			const __m512 t6 = _mm512_fmadd_ps(t4, y0, t5);
+			const __m512 t7 = _mm512_mul_ps(t5, y1);
+			const __m512 t8 = _mm512_fmadd_ps(t6, y0, t7);
+			const __m512 t9 = _mm512_mul_ps(t7, y1);
+			const __m512 t10 = _mm512_fmadd_ps(t8, y0, t9);
+			const __m512 t11 = _mm512_mul_ps(t10, y0);
+			const __m512 t12 = _mm512_fmadd_ps(t9, y1, t11);
+			acc0 = _mm512_fmadd_ps(s, t12, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -1455,26 +1916,43 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y6f_avx512(
 /* integral of x^7 y^0; scheme horner.
  * Cost per item: 15 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 9. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x7y0f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_add_ps(x0, x1);
+			const __m512 t3 = _mm512_mul_ps(x1, x1);
+			const __m512 t4 = _mm512_fmadd_ps(t2, x0, t3);
+			const __m512 t5 = _mm512_mul_ps(t3, x1);
+			const __m512 t6 = _mm512_fmadd_ps(t4, x0, t5);
+			const __m512 t7 = _mm512_mul_ps(t5, x1);
+			const __m512 t8 = _mm512_fmadd_ps(t6, x0, t7);
+			const __m512 t9 = _mm512_mul_ps(t7, x1);
+			const __m512 t10 = _mm512_fmadd_ps(t8, x0, t9);
+			const __m512 t11 = _mm512_mul_ps(t9, x1);
+			const __m512 t12 = _mm512_fmadd_ps(t10, x0, t11);
+			const __m512 t13 = _mm512_mul_ps(t12, x0);
+			const __m512 t14 = _mm512_fmadd_ps(t11, x1, t13);
+			acc0 = _mm512_fmadd_ps(s, t14, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -1500,26 +1978,61 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x7y0f_avx512(
 /* integral of x^6 y^1; scheme matrix.
  * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x6y1f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, x0);
+			const __m512 t1 = _mm512_mul_ps(t0, t0);
+			const __m512 t2 = _mm512_mul_ps(x0, x1);
+			const __m512 t3 = _mm512_mul_ps(t2, t1);
+			const __m512 t4 = _mm512_mul_ps(t0, x0);
+			const __m512 t5 = _mm512_mul_ps(t4, t4);
+			const __m512 t6 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t3, t5);
+			const __m512 t7 = _mm512_mul_ps(t2, t2);
+			const __m512 t8 = _mm512_mul_ps(t0, t7);
+			const __m512 t9 = _mm512_fmadd_ps(_mm512_set1_ps(3.0f), t8, t6);
+			const __m512 t10 = _mm512_mul_ps(t2, t7);
+			const __m512 t11 = _mm512_mul_ps(_mm512_set1_ps(4.0f), t10);
+			const __m512 t12 = _mm512_add_ps(t11, t9);
+			const __m512 t13 = _mm512_mul_ps(x1, x1);
+			const __m512 t14 = _mm512_mul_ps(t7, t13);
+			const __m512 t15 = _mm512_fmadd_ps(_mm512_set1_ps(5.0f), t14, t12);
+			const __m512 t16 = _mm512_mul_ps(t13, t13);
+			const __m512 t17 = _mm512_mul_ps(t2, t16);
+			const __m512 t18 = _mm512_fmadd_ps(_mm512_set1_ps(6.0f), t17, t15);
+			const __m512 t19 = _mm512_mul_ps(t13, x1);
+			const __m512 t20 = _mm512_mul_ps(t19, t19);
+			const __m512 t21 = _mm512_fmadd_ps(_mm512_set1_ps(7.0f), t20, t18);
+			const __m512 t22 = _mm512_mul_ps(_mm512_set1_ps(7.0f), t5);
+			const __m512 t23 = _mm512_fmadd_ps(_mm512_set1_ps(6.0f), t3, t22);
+			const __m512 t24 = _mm512_fmadd_ps(_mm512_set1_ps(5.0f), t8, t23);
+			const __m512 t25 = _mm512_add_ps(t24, t11);
+			const __m512 t26 = _mm512_fmadd_ps(_mm512_set1_ps(3.0f), t14, t25);
+			const __m512 t27 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t17, t26);
+			const __m512 t28 = _mm512_add_ps(t27, t20);
+			const __m512 t29 = _mm512_mul_ps(t28, y0);
+			const __m512 t30 = _mm512_fmadd_ps(t21, y1, t29);
+			const __m512 t31 = _mm512_mul_ps(x0, y1);
+			const __m512 t32 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t31, t32);
+			acc0 = _mm512_fmadd_ps(s, t30, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, x0);
 			const __m512 t1 = _mm512_mul_ps(t0, t0);
 			const __m512 t2 = _mm512_mul_ps(x0, x1);
@@ -1563,26 +2076,70 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x6y1f_avx512(
 /* integral of x^5 y^2; scheme matrix.
  * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x5y2f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_mul_ps(x0, x0);
+			const __m512 t3 = _mm512_mul_ps(t2, x0);
+			const __m512 t4 = _mm512_mul_ps(t2, t3);
+			const __m512 t5 = _mm512_mul_ps(_mm512_set1_ps(3.5f), t4);
+			const __m512 t6 = _mm512_mul_ps(x0, x1);
+			const __m512 t7 = _mm512_mul_ps(t3, t6);
+			const __m512 t8 = _mm512_fmadd_ps(_mm512_set1_ps(2.5f), t7, t5);
+			const __m512 t9 = _mm512_mul_ps(t6, t6);
+			const __m512 t10 = _mm512_mul_ps(t9, x0);
+			const __m512 t11 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t10, t8);
+			const __m512 t12 = _mm512_mul_ps(t9, x1);
+			const __m512 t13 = _mm512_add_ps(t11, t12);
+			const __m512 t14 = _mm512_mul_ps(x1, x1);
+			const __m512 t15 = _mm512_mul_ps(t14, x1);
+			const __m512 t16 = _mm512_mul_ps(t6, t15);
+			const __m512 t17 = _mm512_fmadd_ps(_mm512_set1_ps(0.5f), t16, t13);
+			const __m512 t18 = _mm512_mul_ps(t14, t15);
+			const __m512 t19 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.555556p-3f /* 1/6 */), t18, t17);
+			const __m512 t20 = _mm512_mul_ps(y0, y0);
+			const __m512 t21 = _mm512_mul_ps(t19, t20);
+			const __m512 t22 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t7, t4);
+			const __m512 t23 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t10, t22);
+			const __m512 t24 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t12, t23);
+			const __m512 t25 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t16, t24);
+			const __m512 t26 = _mm512_add_ps(t18, t25);
+			const __m512 t27 = _mm512_mul_ps(y0, y1);
+			const __m512 t28 = _mm512_fmadd_ps(t26, t27, t21);
+			const __m512 t29 = _mm512_mul_ps(_mm512_set1_ps(0x1.555556p-3f /* 1/6 */),
+				t4);
+			const __m512 t30 = _mm512_fmadd_ps(_mm512_set1_ps(0.5f), t7, t29);
+			const __m512 t31 = _mm512_add_ps(t10, t30);
+			const __m512 t32 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.aaaaaap0f /* 5/3 */),
+				t12, t31);
+			const __m512 t33 = _mm512_fmadd_ps(_mm512_set1_ps(2.5f), t16, t32);
+			const __m512 t34 = _mm512_fmadd_ps(_mm512_set1_ps(3.5f), t18, t33);
+			const __m512 t35 = _mm512_mul_ps(y1, y1);
+			const __m512 t36 = _mm512_fmadd_ps(t34, t35, t28);
+			acc0 = _mm512_fmadd_ps(s, t36, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -1635,26 +2192,71 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x5y2f_avx512(
 /* integral of x^4 y^3; scheme matrix.
  * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x4y3f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_mul_ps(x0, x0);
+			const __m512 t3 = _mm512_mul_ps(t2, t2);
+			const __m512 t4 = _mm512_mul_ps(x0, x1);
+			const __m512 t5 = _mm512_mul_ps(t2, t4);
+			const __m512 t6 = _mm512_fmadd_ps(_mm512_set1_ps(1.75f), t3, t5);
+			const __m512 t7 = _mm512_mul_ps(t4, t4);
+			const __m512 t8 = _mm512_mul_ps(_mm512_set1_ps(0.5f), t7);
+			const __m512 t9 = _mm512_add_ps(t6, t8);
+			const __m512 t10 = _mm512_mul_ps(x1, x1);
+			const __m512 t11 = _mm512_mul_ps(t4, t10);
+			const __m512 t12 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */), t11, t9);
+			const __m512 t13 = _mm512_mul_ps(t10, t10);
+			const __m512 t14 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-5f /* 1/20 */), t13, t12);
+			const __m512 t15 = _mm512_mul_ps(y0, y0);
+			const __m512 t16 = _mm512_mul_ps(t15, y0);
+			const __m512 t17 = _mm512_mul_ps(t14, t16);
+			const __m512 t18 = _mm512_fmadd_ps(_mm512_set1_ps(0.75f), t3, t5);
+			const __m512 t19 = _mm512_mul_ps(_mm512_set1_ps(0x1.ccccccp-1f /* 9/10 */),
+				t7);
+			const __m512 t20 = _mm512_add_ps(t18, t19);
+			const __m512 t21 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p-1f /* 3/5 */), t11, t20);
+			const __m512 t22 = _mm512_fmadd_ps(_mm512_set1_ps(0.25f), t13, t21);
+			const __m512 t23 = _mm512_mul_ps(y0, y1);
+			const __m512 t24 = _mm512_mul_ps(t23, y0);
+			const __m512 t25 = _mm512_fmadd_ps(t22, t24, t17);
+			const __m512 t26 = _mm512_mul_ps(_mm512_set1_ps(0.25f), t3);
+			const __m512 t27 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p-1f /* 3/5 */), t5, t26);
+			const __m512 t28 = _mm512_add_ps(t19, t27);
+			const __m512 t29 = _mm512_add_ps(t11, t28);
+			const __m512 t30 = _mm512_fmadd_ps(_mm512_set1_ps(0.75f), t13, t29);
+			const __m512 t31 = _mm512_mul_ps(t23, y1);
+			const __m512 t32 = _mm512_fmadd_ps(t30, t31, t25);
+			const __m512 t33 = _mm512_mul_ps(_mm512_set1_ps(0x1.99999ap-5f /* 1/20 */),
+				t3);
+			const __m512 t34 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */), t5, t33);
+			const __m512 t35 = _mm512_add_ps(t8, t34);
+			const __m512 t36 = _mm512_add_ps(t11, t35);
+			const __m512 t37 = _mm512_fmadd_ps(_mm512_set1_ps(1.75f), t13, t36);
+			const __m512 t38 = _mm512_mul_ps(y1, y1);
+			const __m512 t39 = _mm512_mul_ps(t38, y1);
+			const __m512 t40 = _mm512_fmadd_ps(t37, t39, t32);
+			acc0 = _mm512_fmadd_ps(s, t40, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -1708,26 +2310,71 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x4y3f_avx512(
 /* integral of x^3 y^4; scheme matrix.
  * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x3y4f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_mul_ps(y0, y0);
+			const __m512 t3 = _mm512_mul_ps(t2, t2);
+			const __m512 t4 = _mm512_mul_ps(y0, y1);
+			const __m512 t5 = _mm512_mul_ps(t2, t4);
+			const __m512 t6 = _mm512_fmadd_ps(_mm512_set1_ps(1.75f), t3, t5);
+			const __m512 t7 = _mm512_mul_ps(t4, t4);
+			const __m512 t8 = _mm512_mul_ps(_mm512_set1_ps(0.5f), t7);
+			const __m512 t9 = _mm512_add_ps(t6, t8);
+			const __m512 t10 = _mm512_mul_ps(y1, y1);
+			const __m512 t11 = _mm512_mul_ps(t4, t10);
+			const __m512 t12 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */), t11, t9);
+			const __m512 t13 = _mm512_mul_ps(t10, t10);
+			const __m512 t14 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-5f /* 1/20 */), t13, t12);
+			const __m512 t15 = _mm512_mul_ps(x0, x0);
+			const __m512 t16 = _mm512_mul_ps(t15, x0);
+			const __m512 t17 = _mm512_mul_ps(t14, t16);
+			const __m512 t18 = _mm512_fmadd_ps(_mm512_set1_ps(0.75f), t3, t5);
+			const __m512 t19 = _mm512_mul_ps(_mm512_set1_ps(0x1.ccccccp-1f /* 9/10 */),
+				t7);
+			const __m512 t20 = _mm512_add_ps(t18, t19);
+			const __m512 t21 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p-1f /* 3/5 */), t11, t20);
+			const __m512 t22 = _mm512_fmadd_ps(_mm512_set1_ps(0.25f), t13, t21);
+			const __m512 t23 = _mm512_mul_ps(x0, x1);
+			const __m512 t24 = _mm512_mul_ps(t23, x0);
+			const __m512 t25 = _mm512_fmadd_ps(t22, t24, t17);
+			const __m512 t26 = _mm512_mul_ps(_mm512_set1_ps(0.25f), t3);
+			const __m512 t27 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p-1f /* 3/5 */), t5, t26);
+			const __m512 t28 = _mm512_add_ps(t19, t27);
+			const __m512 t29 = _mm512_add_ps(t11, t28);
+			const __m512 t30 = _mm512_fmadd_ps(_mm512_set1_ps(0.75f), t13, t29);
+			const __m512 t31 = _mm512_mul_ps(t23, x1);
+			const __m512 t32 = _mm512_fmadd_ps(t30, t31, t25);
+			const __m512 t33 = _mm512_mul_ps(_mm512_set1_ps(0x1.99999ap-5f /* 1/20 */),
+				t3);
+			const __m512 t34 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */), t5, t33);
+			const __m512 t35 = _mm512_add_ps(t8, t34);
+			const __m512 t36 = _mm512_add_ps(t11, t35);
+			const __m512 t37 = _mm512_fmadd_ps(_mm512_set1_ps(1.75f), t13, t36);
+			const __m512 t38 = _mm512_mul_ps(x1, x1);
+			const __m512 t39 = _mm512_mul_ps(t38, x1);
+			const __m512 t40 = _mm512_fmadd_ps(t37, t39, t32);
+			acc0 = _mm512_fmadd_ps(s, t40, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -1781,26 +2428,69 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y4f_avx512(
 /* integral of x^2 y^5; scheme matrix.
  * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x2y5f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 t2 = _mm512_mul_ps(y0, y0);
+			const __m512 t3 = _mm512_mul_ps(t2, y0);
+			const __m512 t4 = _mm512_mul_ps(t2, t3);
+			const __m512 t5 = _mm512_mul_ps(_mm512_set1_ps(0x1.0cccccp1f /* 21/10 */),
+				t4);
+			const __m512 t6 = _mm512_mul_ps(y0, y1);
+			const __m512 t7 = _mm512_mul_ps(t3, t6);
+			const __m512 t8 = _mm512_fmadd_ps(_mm512_set1_ps(1.5f), t7, t5);
+			const __m512 t9 = _mm512_mul_ps(t6, t6);
+			const __m512 t10 = _mm512_mul_ps(t9, y0);
+			const __m512 t11 = _mm512_add_ps(t8, t10);
+			const __m512 t12 = _mm512_mul_ps(t9, y1);
+			const __m512 t13 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p-1f /* 3/5 */), t12, t11);
+			const __m512 t14 = _mm512_mul_ps(y1, y1);
+			const __m512 t15 = _mm512_mul_ps(t14, y1);
+			const __m512 t16 = _mm512_mul_ps(t6, t15);
+			const __m512 t17 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p-2f /* 3/10 */), t16, t13);
+			const __m512 t18 = _mm512_mul_ps(t14, t15);
+			const __m512 t19 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-4f /* 1/10 */), t18, t17);
+			const __m512 t20 = _mm512_mul_ps(x0, x0);
+			const __m512 t21 = _mm512_mul_ps(t19, t20);
+			const __m512 t22 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p-1f /* 3/5 */), t4, t7);
+			const __m512 t23 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p0f /* 6/5 */),
+				t10, t22);
+			const __m512 t24 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p0f /* 6/5 */),
+				t12, t23);
+			const __m512 t25 = _mm512_add_ps(t16, t24);
+			const __m512 t26 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p-1f /* 3/5 */), t18, t25);
+			const __m512 t27 = _mm512_mul_ps(x0, x1);
+			const __m512 t28 = _mm512_fmadd_ps(t26, t27, t21);
+			const __m512 t29 = _mm512_mul_ps(_mm512_set1_ps(0x1.99999ap-4f /* 1/10 */),
+				t4);
+			const __m512 t30 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p-2f /* 3/10 */), t7, t29);
+			const __m512 t31 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.333334p-1f /* 3/5 */), t10, t30);
+			const __m512 t32 = _mm512_add_ps(t12, t31);
+			const __m512 t33 = _mm512_fmadd_ps(_mm512_set1_ps(1.5f), t16, t32);
+			const __m512 t34 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.0cccccp1f /* 21/10 */), t18, t33);
+			const __m512 t35 = _mm512_mul_ps(x1, x1);
+			const __m512 t36 = _mm512_fmadd_ps(t34, t35, t28);
+			acc0 = _mm512_fmadd_ps(s, t36, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -1852,26 +2542,61 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y5f_avx512(
 /* integral of x^1 y^6; scheme matrix.
  * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x1y6f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(y0, y0);
+			const __m512 t1 = _mm512_mul_ps(t0, t0);
+			const __m512 t2 = _mm512_mul_ps(y0, y1);
+			const __m512 t3 = _mm512_mul_ps(t2, t1);
+			const __m512 t4 = _mm512_mul_ps(t0, y0);
+			const __m512 t5 = _mm512_mul_ps(t4, t4);
+			const __m512 t6 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t3, t5);
+			const __m512 t7 = _mm512_mul_ps(t2, t2);
+			const __m512 t8 = _mm512_mul_ps(t0, t7);
+			const __m512 t9 = _mm512_fmadd_ps(_mm512_set1_ps(3.0f), t8, t6);
+			const __m512 t10 = _mm512_mul_ps(t2, t7);
+			const __m512 t11 = _mm512_mul_ps(_mm512_set1_ps(4.0f), t10);
+			const __m512 t12 = _mm512_add_ps(t11, t9);
+			const __m512 t13 = _mm512_mul_ps(y1, y1);
+			const __m512 t14 = _mm512_mul_ps(t7, t13);
+			const __m512 t15 = _mm512_fmadd_ps(_mm512_set1_ps(5.0f), t14, t12);
+			const __m512 t16 = _mm512_mul_ps(t13, t13);
+			const __m512 t17 = _mm512_mul_ps(t2, t16);
+			const __m512 t18 = _mm512_fmadd_ps(_mm512_set1_ps(6.0f), t17, t15);
+			const __m512 t19 = _mm512_mul_ps(t13, y1);
+			const __m512 t20 = _mm512_mul_ps(t19, t19);
+			const __m512 t21 = _mm512_fmadd_ps(_mm512_set1_ps(7.0f), t20, t18);
+			const __m512 t22 = _mm512_mul_ps(_mm512_set1_ps(7.0f), t5);
+			const __m512 t23 = _mm512_fmadd_ps(_mm512_set1_ps(6.0f), t3, t22);
+			const __m512 t24 = _mm512_fmadd_ps(_mm512_set1_ps(5.0f), t8, t23);
+			const __m512 t25 = _mm512_add_ps(t24, t11);
+			const __m512 t26 = _mm512_fmadd_ps(_mm512_set1_ps(3.0f), t14, t25);
+			const __m512 t27 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t17, t26);
+			const __m512 t28 = _mm512_add_ps(t27, t20);
+			const __m512 t29 = _mm512_mul_ps(t28, x0);
+			const __m512 t30 = _mm512_fmadd_ps(t21, x1, t29);
+			const __m512 t31 = _mm512_mul_ps(x0, y1);
+			const __m512 t32 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t31, t32);
+			acc0 = _mm512_fmadd_ps(s, t30, acc0);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(y0, y0);
 			const __m512 t1 = _mm512_mul_ps(t0, t0);
 			const __m512 t2 = _mm512_mul_ps(y0, y1);
@@ -1915,26 +2640,18 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y6f_avx512(
 /* integral of x^0 y^7; scheme horner.
  * Cost per item: 15 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 9. */
 EW_ATTRIBUTE_AVX512 void ew_ring_x0y7f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -1953,625 +2670,13 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y7f_avx512(
 			const __m512 t14 = _mm512_fmadd_ps(t11, y1, t13);
 			acc0 = _mm512_fmadd_ps(s, t14, acc0);
 		}
-		_mm512_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^8 y^0; scheme horner.
- * Cost per item: 17 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 10. */
-EW_ATTRIBUTE_AVX512 void ew_ring_x8y0f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
-		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
-			const __m512 t0 = _mm512_mul_ps(x0, y1);
-			const __m512 t1 = _mm512_mul_ps(x1, y0);
-			const __m512 s = _mm512_sub_ps(t0, t1);
-			const __m512 t2 = _mm512_add_ps(x0, x1);
-			const __m512 t3 = _mm512_mul_ps(x1, x1);
-			const __m512 t4 = _mm512_fmadd_ps(t2, x0, t3);
-			const __m512 t5 = _mm512_mul_ps(t3, x1);
-			const __m512 t6 = _mm512_fmadd_ps(t4, x0, t5);
-			const __m512 t7 = _mm512_mul_ps(t5, x1);
-			const __m512 t8 = _mm512_fmadd_ps(t6, x0, t7);
-			const __m512 t9 = _mm512_mul_ps(t7, x1);
-			const __m512 t10 = _mm512_fmadd_ps(t8, x0, t9);
-			const __m512 t11 = _mm512_mul_ps(t9, x1);
-			const __m512 t12 = _mm512_fmadd_ps(t10, x0, t11);
-			const __m512 t13 = _mm512_mul_ps(t11, x1);
-			const __m512 t14 = _mm512_fmadd_ps(t12, x0, t13);
-			const __m512 t15 = _mm512_mul_ps(t14, x0);
-			const __m512 t16 = _mm512_fmadd_ps(t13, x1, t15);
-			acc0 = _mm512_fmadd_ps(s, t16, acc0);
-		}
-		_mm512_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^7 y^1; scheme matrix.
- * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
-EW_ATTRIBUTE_AVX512 void ew_ring_x7y1f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
-		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
-			const __m512 t0 = _mm512_mul_ps(x0, x0);
-			const __m512 t1 = _mm512_mul_ps(t0, x0);
-			const __m512 t2 = _mm512_mul_ps(t0, t1);
-			const __m512 t3 = _mm512_mul_ps(x0, x1);
-			const __m512 t4 = _mm512_mul_ps(t3, t2);
-			const __m512 t5 = _mm512_mul_ps(t0, t0);
-			const __m512 t6 = _mm512_mul_ps(t1, t5);
-			const __m512 t7 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t4, t6);
-			const __m512 t8 = _mm512_mul_ps(t3, t3);
-			const __m512 t9 = _mm512_mul_ps(t1, t8);
-			const __m512 t10 = _mm512_fmadd_ps(_mm512_set1_ps(3.0f), t9, t7);
-			const __m512 t11 = _mm512_mul_ps(t3, t8);
-			const __m512 t12 = _mm512_mul_ps(t11, x0);
-			const __m512 t13 = _mm512_fmadd_ps(_mm512_set1_ps(4.0f), t12, t10);
-			const __m512 t14 = _mm512_mul_ps(t11, x1);
-			const __m512 t15 = _mm512_fmadd_ps(_mm512_set1_ps(5.0f), t14, t13);
-			const __m512 t16 = _mm512_mul_ps(x1, x1);
-			const __m512 t17 = _mm512_mul_ps(t16, x1);
-			const __m512 t18 = _mm512_mul_ps(t8, t17);
-			const __m512 t19 = _mm512_fmadd_ps(_mm512_set1_ps(6.0f), t18, t15);
-			const __m512 t20 = _mm512_mul_ps(t16, t17);
-			const __m512 t21 = _mm512_mul_ps(t3, t20);
-			const __m512 t22 = _mm512_fmadd_ps(_mm512_set1_ps(7.0f), t21, t19);
-			const __m512 t23 = _mm512_mul_ps(t16, t16);
-			const __m512 t24 = _mm512_mul_ps(t17, t23);
-			const __m512 t25 = _mm512_fmadd_ps(_mm512_set1_ps(8.0f), t24, t22);
-			const __m512 t26 = _mm512_mul_ps(_mm512_set1_ps(8.0f), t6);
-			const __m512 t27 = _mm512_fmadd_ps(_mm512_set1_ps(7.0f), t4, t26);
-			const __m512 t28 = _mm512_fmadd_ps(_mm512_set1_ps(6.0f), t9, t27);
-			const __m512 t29 = _mm512_fmadd_ps(_mm512_set1_ps(5.0f), t12, t28);
-			const __m512 t30 = _mm512_fmadd_ps(_mm512_set1_ps(4.0f), t14, t29);
-			const __m512 t31 = _mm512_fmadd_ps(_mm512_set1_ps(3.0f), t18, t30);
-			const __m512 t32 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t21, t31);
-			const __m512 t33 = _mm512_add_ps(t32, t24);
-			const __m512 t34 = _mm512_mul_ps(t33, y0);
-			const __m512 t35 = _mm512_fmadd_ps(t25, y1, t34);
-			const __m512 t36 = _mm512_mul_ps(x0, y1);
-			const __m512 t37 = _mm512_mul_ps(x1, y0);
-			const __m512 s = _mm512_sub_ps(t36, t37);
-			acc0 = _mm512_fmadd_ps(s, t35, acc0);
-		}
-		_mm512_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^6 y^2; scheme matrix.
- * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
-EW_ATTRIBUTE_AVX512 void ew_ring_x6y2f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
-		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
-			const __m512 t0 = _mm512_mul_ps(x0, x0);
-			const __m512 t1 = _mm512_mul_ps(t0, t0);
-			const __m512 t2 = _mm512_mul_ps(x0, x1);
-			const __m512 t3 = _mm512_mul_ps(t2, t1);
-			const __m512 t4 = _mm512_mul_ps(t0, x0);
-			const __m512 t5 = _mm512_mul_ps(t4, t4);
-			const __m512 t6 = _mm512_mul_ps(_mm512_set1_ps(0x1.dddddep-2f /* 7/15 */),
-				t5);
-			const __m512 t7 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-1f /* 4/5 */),
-				t3, t6);
-			const __m512 t8 = _mm512_mul_ps(t2, t2);
-			const __m512 t9 = _mm512_mul_ps(t0, t8);
-			const __m512 t10 = _mm512_add_ps(t9, t7);
-			const __m512 t11 = _mm512_mul_ps(t2, t8);
-			const __m512 t12 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.111112p0f /* 16/15 */), t11, t10);
-			const __m512 t13 = _mm512_mul_ps(x1, x1);
-			const __m512 t14 = _mm512_mul_ps(t8, t13);
-			const __m512 t15 = _mm512_add_ps(t14, t12);
-			const __m512 t16 = _mm512_mul_ps(t13, t13);
-			const __m512 t17 = _mm512_mul_ps(t2, t16);
-			const __m512 t18 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-1f /* 4/5 */), t17, t15);
-			const __m512 t19 = _mm512_mul_ps(t13, x1);
-			const __m512 t20 = _mm512_mul_ps(t19, t19);
-			const __m512 t21 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.dddddep-2f /* 7/15 */), t20, t18);
-			const __m512 t22 = _mm512_mul_ps(_mm512_set1_ps(0x1.dddddep0f /* 28/15 */),
-				t5);
-			const __m512 t23 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.666666p0f /* 7/5 */),
-				t3, t22);
-			const __m512 t24 = _mm512_add_ps(t23, t9);
-			const __m512 t25 = _mm512_mul_ps(_mm512_set1_ps(0x1.555556p-1f /* 2/3 */),
-				t11);
-			const __m512 t26 = _mm512_add_ps(t24, t25);
-			const __m512 t27 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-2f /* 2/5 */), t14, t26);
-			const __m512 t28 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */), t17, t27);
-			const __m512 t29 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.111112p-4f /* 1/15 */), t20, t28);
-			const __m512 t30 = _mm512_mul_ps(y0, y0);
-			const __m512 t31 = _mm512_mul_ps(t29, t30);
-			const __m512 t32 = _mm512_mul_ps(y0, y1);
-			const __m512 t33 = _mm512_fmadd_ps(t21, t32, t31);
-			const __m512 t34 = _mm512_mul_ps(_mm512_set1_ps(0x1.111112p-4f /* 1/15 */),
-				t5);
-			const __m512 t35 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */), t3, t34);
-			const __m512 t36 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-2f /* 2/5 */), t9, t35);
-			const __m512 t37 = _mm512_add_ps(t25, t36);
-			const __m512 t38 = _mm512_add_ps(t14, t37);
-			const __m512 t39 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.666666p0f /* 7/5 */),
-				t17, t38);
-			const __m512 t40 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.dddddep0f /* 28/15 */), t20, t39);
-			const __m512 t41 = _mm512_mul_ps(y1, y1);
-			const __m512 t42 = _mm512_fmadd_ps(t40, t41, t33);
-			const __m512 t43 = _mm512_mul_ps(x0, y1);
-			const __m512 t44 = _mm512_mul_ps(x1, y0);
-			const __m512 s = _mm512_sub_ps(t43, t44);
-			acc0 = _mm512_fmadd_ps(s, t42, acc0);
-		}
-		_mm512_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^5 y^3; scheme matrix.
- * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
-EW_ATTRIBUTE_AVX512 void ew_ring_x5y3f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
-		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
-			const __m512 t0 = _mm512_mul_ps(x0, y1);
-			const __m512 t1 = _mm512_mul_ps(x1, y0);
-			const __m512 s = _mm512_sub_ps(t0, t1);
-			const __m512 t2 = _mm512_mul_ps(x0, x0);
-			const __m512 t3 = _mm512_mul_ps(t2, x0);
-			const __m512 t4 = _mm512_mul_ps(t2, t3);
-			const __m512 t5 = _mm512_mul_ps(_mm512_set1_ps(0x1.dddddep0f /* 28/15 */),
-				t4);
-			const __m512 t6 = _mm512_mul_ps(x0, x1);
-			const __m512 t7 = _mm512_mul_ps(t3, t6);
-			const __m512 t8 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.2aaaaap0f /* 7/6 */),
-				t7, t5);
-			const __m512 t9 = _mm512_mul_ps(t6, t6);
-			const __m512 t10 = _mm512_mul_ps(t9, x0);
-			const __m512 t11 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.555556p-1f /* 2/3 */), t10, t8);
-			const __m512 t12 = _mm512_mul_ps(t9, x1);
-			const __m512 t13 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.555556p-2f /* 1/3 */), t12, t11);
-			const __m512 t14 = _mm512_mul_ps(x1, x1);
-			const __m512 t15 = _mm512_mul_ps(t14, x1);
-			const __m512 t16 = _mm512_mul_ps(t6, t15);
-			const __m512 t17 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.111112p-3f /* 2/15 */), t16, t13);
-			const __m512 t18 = _mm512_mul_ps(t14, t15);
-			const __m512 t19 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.111112p-5f /* 1/30 */), t18, t17);
-			const __m512 t20 = _mm512_mul_ps(y0, y0);
-			const __m512 t21 = _mm512_mul_ps(t20, y0);
-			const __m512 t22 = _mm512_mul_ps(t19, t21);
-			const __m512 t23 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.666666p-1f /* 7/10 */), t4, t7);
-			const __m512 t24 = _mm512_add_ps(t10, t23);
-			const __m512 t25 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-1f /* 4/5 */), t12, t24);
-			const __m512 t26 = _mm512_fmadd_ps(_mm512_set1_ps(0.5f), t16, t25);
-			const __m512 t27 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */), t18, t26);
-			const __m512 t28 = _mm512_mul_ps(y0, y1);
-			const __m512 t29 = _mm512_mul_ps(t28, y0);
-			const __m512 t30 = _mm512_fmadd_ps(t27, t29, t22);
-			const __m512 t31 = _mm512_mul_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */),
-				t4);
-			const __m512 t32 = _mm512_fmadd_ps(_mm512_set1_ps(0.5f), t7, t31);
-			const __m512 t33 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-1f /* 4/5 */), t10, t32);
-			const __m512 t34 = _mm512_add_ps(t12, t33);
-			const __m512 t35 = _mm512_add_ps(t16, t34);
-			const __m512 t36 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.666666p-1f /* 7/10 */), t18, t35);
-			const __m512 t37 = _mm512_mul_ps(t28, y1);
-			const __m512 t38 = _mm512_fmadd_ps(t36, t37, t30);
-			const __m512 t39 = _mm512_mul_ps(_mm512_set1_ps(0x1.111112p-5f /* 1/30 */),
-				t4);
-			const __m512 t40 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.111112p-3f /* 2/15 */), t7, t39);
-			const __m512 t41 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.555556p-2f /* 1/3 */), t10, t40);
-			const __m512 t42 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.555556p-1f /* 2/3 */), t12, t41);
-			const __m512 t43 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.2aaaaap0f /* 7/6 */),
-				t16, t42);
-			const __m512 t44 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.dddddep0f /* 28/15 */), t18, t43);
-			const __m512 t45 = _mm512_mul_ps(y1, y1);
-			const __m512 t46 = _mm512_mul_ps(t45, y1);
-			const __m512 t47 = _mm512_fmadd_ps(t44, t46, t38);
-			acc0 = _mm512_fmadd_ps(s, t47, acc0);
-		}
-		_mm512_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^4 y^4; scheme matrix.
- * Cost per item: 45 mul or fma, 6 add; 1 accumulators, 14 values alive, depth 13. */
-EW_ATTRIBUTE_AVX512 void ew_ring_x4y4f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
-		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
-			const __m512 t0 = _mm512_mul_ps(x0, y1);
-			const __m512 t1 = _mm512_mul_ps(x1, y0);
-			const __m512 s = _mm512_sub_ps(t0, t1);
-			const __m512 t2 = _mm512_mul_ps(y0, y0);
-			const __m512 t3 = _mm512_mul_ps(t2, t2);
-			const __m512 t4 = _mm512_mul_ps(_mm512_set1_ps(70.0f), t3);
-			const __m512 t5 = _mm512_mul_ps(y0, y1);
-			const __m512 t6 = _mm512_mul_ps(t2, t5);
-			const __m512 t7 = _mm512_fmadd_ps(_mm512_set1_ps(35.0f), t6, t4);
-			const __m512 t8 = _mm512_mul_ps(t5, t5);
-			const __m512 t9 = _mm512_mul_ps(_mm512_set1_ps(15.0f), t8);
-			const __m512 t10 = _mm512_add_ps(t7, t9);
-			const __m512 t11 = _mm512_mul_ps(y1, y1);
-			const __m512 t12 = _mm512_mul_ps(t5, t11);
-			const __m512 t13 = _mm512_fmadd_ps(_mm512_set1_ps(5.0f), t12, t10);
-			const __m512 t14 = _mm512_mul_ps(t11, t11);
-			const __m512 t15 = _mm512_add_ps(t13, t14);
-			const __m512 t16 = _mm512_mul_ps(x0, x0);
-			const __m512 t17 = _mm512_mul_ps(t16, t16);
-			const __m512 t18 = _mm512_mul_ps(t15, t17);
-			const __m512 t19 = _mm512_mul_ps(_mm512_set1_ps(35.0f), t3);
-			const __m512 t20 = _mm512_fmadd_ps(_mm512_set1_ps(40.0f), t6, t19);
-			const __m512 t21 = _mm512_mul_ps(_mm512_set1_ps(30.0f), t8);
-			const __m512 t22 = _mm512_add_ps(t20, t21);
-			const __m512 t23 = _mm512_fmadd_ps(_mm512_set1_ps(16.0f), t12, t22);
-			const __m512 t24 = _mm512_fmadd_ps(_mm512_set1_ps(5.0f), t14, t23);
-			const __m512 t25 = _mm512_mul_ps(x0, x1);
-			const __m512 t26 = _mm512_mul_ps(t16, t25);
-			const __m512 t27 = _mm512_fmadd_ps(t24, t26, t18);
-			const __m512 t28 = _mm512_mul_ps(_mm512_set1_ps(15.0f), t3);
-			const __m512 t29 = _mm512_fmadd_ps(_mm512_set1_ps(30.0f), t6, t28);
-			const __m512 t30 = _mm512_fmadd_ps(_mm512_set1_ps(36.0f), t8, t29);
-			const __m512 t31 = _mm512_fmadd_ps(_mm512_set1_ps(30.0f), t12, t30);
-			const __m512 t32 = _mm512_fmadd_ps(_mm512_set1_ps(15.0f), t14, t31);
-			const __m512 t33 = _mm512_mul_ps(t25, t25);
-			const __m512 t34 = _mm512_fmadd_ps(t32, t33, t27);
-			const __m512 t35 = _mm512_mul_ps(_mm512_set1_ps(5.0f), t3);
-			const __m512 t36 = _mm512_fmadd_ps(_mm512_set1_ps(16.0f), t6, t35);
-			const __m512 t37 = _mm512_add_ps(t21, t36);
-			const __m512 t38 = _mm512_fmadd_ps(_mm512_set1_ps(40.0f), t12, t37);
-			const __m512 t39 = _mm512_fmadd_ps(_mm512_set1_ps(35.0f), t14, t38);
-			const __m512 t40 = _mm512_mul_ps(x1, x1);
-			const __m512 t41 = _mm512_mul_ps(t25, t40);
-			const __m512 t42 = _mm512_fmadd_ps(t39, t41, t34);
-			const __m512 t43 = _mm512_fmadd_ps(_mm512_set1_ps(5.0f), t6, t3);
-			const __m512 t44 = _mm512_add_ps(t9, t43);
-			const __m512 t45 = _mm512_fmadd_ps(_mm512_set1_ps(35.0f), t12, t44);
-			const __m512 t46 = _mm512_fmadd_ps(_mm512_set1_ps(70.0f), t14, t45);
-			const __m512 t47 = _mm512_mul_ps(t40, t40);
-			const __m512 t48 = _mm512_fmadd_ps(t46, t47, t42);
-			acc0 = _mm512_fmadd_ps(s, t48, acc0);
-		}
-		_mm512_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^3 y^5; scheme matrix.
- * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
-EW_ATTRIBUTE_AVX512 void ew_ring_x3y5f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
-		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
-			const __m512 t0 = _mm512_mul_ps(x0, y1);
-			const __m512 t1 = _mm512_mul_ps(x1, y0);
-			const __m512 s = _mm512_sub_ps(t0, t1);
-			const __m512 t2 = _mm512_mul_ps(y0, y0);
-			const __m512 t3 = _mm512_mul_ps(t2, y0);
-			const __m512 t4 = _mm512_mul_ps(t2, t3);
-			const __m512 t5 = _mm512_mul_ps(_mm512_set1_ps(0x1.dddddep0f /* 28/15 */),
-				t4);
-			const __m512 t6 = _mm512_mul_ps(y0, y1);
-			const __m512 t7 = _mm512_mul_ps(t3, t6);
-			const __m512 t8 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.2aaaaap0f /* 7/6 */),
-				t7, t5);
-			const __m512 t9 = _mm512_mul_ps(t6, t6);
-			const __m512 t10 = _mm512_mul_ps(t9, y0);
-			const __m512 t11 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.555556p-1f /* 2/3 */), t10, t8);
-			const __m512 t12 = _mm512_mul_ps(t9, y1);
-			const __m512 t13 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.555556p-2f /* 1/3 */), t12, t11);
-			const __m512 t14 = _mm512_mul_ps(y1, y1);
-			const __m512 t15 = _mm512_mul_ps(t14, y1);
-			const __m512 t16 = _mm512_mul_ps(t6, t15);
-			const __m512 t17 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.111112p-3f /* 2/15 */), t16, t13);
-			const __m512 t18 = _mm512_mul_ps(t14, t15);
-			const __m512 t19 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.111112p-5f /* 1/30 */), t18, t17);
-			const __m512 t20 = _mm512_mul_ps(x0, x0);
-			const __m512 t21 = _mm512_mul_ps(t20, x0);
-			const __m512 t22 = _mm512_mul_ps(t19, t21);
-			const __m512 t23 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.666666p-1f /* 7/10 */), t4, t7);
-			const __m512 t24 = _mm512_add_ps(t10, t23);
-			const __m512 t25 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-1f /* 4/5 */), t12, t24);
-			const __m512 t26 = _mm512_fmadd_ps(_mm512_set1_ps(0.5f), t16, t25);
-			const __m512 t27 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */), t18, t26);
-			const __m512 t28 = _mm512_mul_ps(x0, x1);
-			const __m512 t29 = _mm512_mul_ps(t28, x0);
-			const __m512 t30 = _mm512_fmadd_ps(t27, t29, t22);
-			const __m512 t31 = _mm512_mul_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */),
-				t4);
-			const __m512 t32 = _mm512_fmadd_ps(_mm512_set1_ps(0.5f), t7, t31);
-			const __m512 t33 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-1f /* 4/5 */), t10, t32);
-			const __m512 t34 = _mm512_add_ps(t12, t33);
-			const __m512 t35 = _mm512_add_ps(t16, t34);
-			const __m512 t36 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.666666p-1f /* 7/10 */), t18, t35);
-			const __m512 t37 = _mm512_mul_ps(t28, x1);
-			const __m512 t38 = _mm512_fmadd_ps(t36, t37, t30);
-			const __m512 t39 = _mm512_mul_ps(_mm512_set1_ps(0x1.111112p-5f /* 1/30 */),
-				t4);
-			const __m512 t40 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.111112p-3f /* 2/15 */), t7, t39);
-			const __m512 t41 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.555556p-2f /* 1/3 */), t10, t40);
-			const __m512 t42 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.555556p-1f /* 2/3 */), t12, t41);
-			const __m512 t43 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.2aaaaap0f /* 7/6 */),
-				t16, t42);
-			const __m512 t44 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.dddddep0f /* 28/15 */), t18, t43);
-			const __m512 t45 = _mm512_mul_ps(x1, x1);
-			const __m512 t46 = _mm512_mul_ps(t45, x1);
-			const __m512 t47 = _mm512_fmadd_ps(t44, t46, t38);
-			acc0 = _mm512_fmadd_ps(s, t47, acc0);
-		}
-		_mm512_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^2 y^6; scheme matrix.
- * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
-EW_ATTRIBUTE_AVX512 void ew_ring_x2y6f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
-		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
-			const __m512 t0 = _mm512_mul_ps(y0, y0);
-			const __m512 t1 = _mm512_mul_ps(t0, t0);
-			const __m512 t2 = _mm512_mul_ps(y0, y1);
-			const __m512 t3 = _mm512_mul_ps(t2, t1);
-			const __m512 t4 = _mm512_mul_ps(t0, y0);
-			const __m512 t5 = _mm512_mul_ps(t4, t4);
-			const __m512 t6 = _mm512_mul_ps(_mm512_set1_ps(0x1.dddddep-2f /* 7/15 */),
-				t5);
-			const __m512 t7 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-1f /* 4/5 */),
-				t3, t6);
-			const __m512 t8 = _mm512_mul_ps(t2, t2);
-			const __m512 t9 = _mm512_mul_ps(t0, t8);
-			const __m512 t10 = _mm512_add_ps(t9, t7);
-			const __m512 t11 = _mm512_mul_ps(t2, t8);
-			const __m512 t12 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.111112p0f /* 16/15 */), t11, t10);
-			const __m512 t13 = _mm512_mul_ps(y1, y1);
-			const __m512 t14 = _mm512_mul_ps(t8, t13);
-			const __m512 t15 = _mm512_add_ps(t14, t12);
-			const __m512 t16 = _mm512_mul_ps(t13, t13);
-			const __m512 t17 = _mm512_mul_ps(t2, t16);
-			const __m512 t18 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-1f /* 4/5 */), t17, t15);
-			const __m512 t19 = _mm512_mul_ps(t13, y1);
-			const __m512 t20 = _mm512_mul_ps(t19, t19);
-			const __m512 t21 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.dddddep-2f /* 7/15 */), t20, t18);
-			const __m512 t22 = _mm512_mul_ps(_mm512_set1_ps(0x1.dddddep0f /* 28/15 */),
-				t5);
-			const __m512 t23 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.666666p0f /* 7/5 */),
-				t3, t22);
-			const __m512 t24 = _mm512_add_ps(t23, t9);
-			const __m512 t25 = _mm512_mul_ps(_mm512_set1_ps(0x1.555556p-1f /* 2/3 */),
-				t11);
-			const __m512 t26 = _mm512_add_ps(t24, t25);
-			const __m512 t27 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-2f /* 2/5 */), t14, t26);
-			const __m512 t28 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */), t17, t27);
-			const __m512 t29 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.111112p-4f /* 1/15 */), t20, t28);
-			const __m512 t30 = _mm512_mul_ps(x0, x0);
-			const __m512 t31 = _mm512_mul_ps(t29, t30);
-			const __m512 t32 = _mm512_mul_ps(x0, x1);
-			const __m512 t33 = _mm512_fmadd_ps(t21, t32, t31);
-			const __m512 t34 = _mm512_mul_ps(_mm512_set1_ps(0x1.111112p-4f /* 1/15 */),
-				t5);
-			const __m512 t35 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-3f /* 1/5 */), t3, t34);
-			const __m512 t36 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.99999ap-2f /* 2/5 */), t9, t35);
-			const __m512 t37 = _mm512_add_ps(t25, t36);
-			const __m512 t38 = _mm512_add_ps(t14, t37);
-			const __m512 t39 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.666666p0f /* 7/5 */),
-				t17, t38);
-			const __m512 t40 = _mm512_fmadd_ps(_mm512_set1_ps(0x1.dddddep0f /* 28/15 */), t20, t39);
-			const __m512 t41 = _mm512_mul_ps(x1, x1);
-			const __m512 t42 = _mm512_fmadd_ps(t40, t41, t33);
-			const __m512 t43 = _mm512_mul_ps(x0, y1);
-			const __m512 t44 = _mm512_mul_ps(x1, y0);
-			const __m512 s = _mm512_sub_ps(t43, t44);
-			acc0 = _mm512_fmadd_ps(s, t42, acc0);
-		}
-		_mm512_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^1 y^7; scheme matrix.
- * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
-EW_ATTRIBUTE_AVX512 void ew_ring_x1y7f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
-		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
-			const __m512 t0 = _mm512_mul_ps(y0, y0);
-			const __m512 t1 = _mm512_mul_ps(t0, y0);
-			const __m512 t2 = _mm512_mul_ps(t0, t1);
-			const __m512 t3 = _mm512_mul_ps(y0, y1);
-			const __m512 t4 = _mm512_mul_ps(t3, t2);
-			const __m512 t5 = _mm512_mul_ps(t0, t0);
-			const __m512 t6 = _mm512_mul_ps(t1, t5);
-			const __m512 t7 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t4, t6);
-			const __m512 t8 = _mm512_mul_ps(t3, t3);
-			const __m512 t9 = _mm512_mul_ps(t1, t8);
-			const __m512 t10 = _mm512_fmadd_ps(_mm512_set1_ps(3.0f), t9, t7);
-			const __m512 t11 = _mm512_mul_ps(t3, t8);
-			const __m512 t12 = _mm512_mul_ps(t11, y0);
-			const __m512 t13 = _mm512_fmadd_ps(_mm512_set1_ps(4.0f), t12, t10);
-			const __m512 t14 = _mm512_mul_ps(t11, y1);
-			const __m512 t15 = _mm512_fmadd_ps(_mm512_set1_ps(5.0f), t14, t13);
-			const __m512 t16 = _mm512_mul_ps(y1, y1);
-			const __m512 t17 = _mm512_mul_ps(t16, y1);
-			const __m512 t18 = _mm512_mul_ps(t8, t17);
-			const __m512 t19 = _mm512_fmadd_ps(_mm512_set1_ps(6.0f), t18, t15);
-			const __m512 t20 = _mm512_mul_ps(t16, t17);
-			const __m512 t21 = _mm512_mul_ps(t3, t20);
-			const __m512 t22 = _mm512_fmadd_ps(_mm512_set1_ps(7.0f), t21, t19);
-			const __m512 t23 = _mm512_mul_ps(t16, t16);
-			const __m512 t24 = _mm512_mul_ps(t17, t23);
-			const __m512 t25 = _mm512_fmadd_ps(_mm512_set1_ps(8.0f), t24, t22);
-			const __m512 t26 = _mm512_mul_ps(_mm512_set1_ps(8.0f), t6);
-			const __m512 t27 = _mm512_fmadd_ps(_mm512_set1_ps(7.0f), t4, t26);
-			const __m512 t28 = _mm512_fmadd_ps(_mm512_set1_ps(6.0f), t9, t27);
-			const __m512 t29 = _mm512_fmadd_ps(_mm512_set1_ps(5.0f), t12, t28);
-			const __m512 t30 = _mm512_fmadd_ps(_mm512_set1_ps(4.0f), t14, t29);
-			const __m512 t31 = _mm512_fmadd_ps(_mm512_set1_ps(3.0f), t18, t30);
-			const __m512 t32 = _mm512_fmadd_ps(_mm512_set1_ps(2.0f), t21, t31);
-			const __m512 t33 = _mm512_add_ps(t32, t24);
-			const __m512 t34 = _mm512_mul_ps(t33, x0);
-			const __m512 t35 = _mm512_fmadd_ps(t25, x1, t34);
-			const __m512 t36 = _mm512_mul_ps(x0, y1);
-			const __m512 t37 = _mm512_mul_ps(x1, y0);
-			const __m512 s = _mm512_sub_ps(t36, t37);
-			acc0 = _mm512_fmadd_ps(s, t35, acc0);
-		}
-		_mm512_storeu_ps(sum + pass, acc0);
-	}
-}
-
-/* integral of x^0 y^8; scheme horner.
- * Cost per item: 17 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 10. */
-EW_ATTRIBUTE_AVX512 void ew_ring_x0y8f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
-		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -2586,11 +2691,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y8f_avx512(
 			const __m512 t10 = _mm512_fmadd_ps(t8, y0, t9);
 			const __m512 t11 = _mm512_mul_ps(t9, y1);
 			const __m512 t12 = _mm512_fmadd_ps(t10, y0, t11);
-			const __m512 t13 = _mm512_mul_ps(t11, y1);
-			const __m512 t14 = _mm512_fmadd_ps(t12, y0, t13);
-			const __m512 t15 = _mm512_mul_ps(t14, y0);
-			const __m512 t16 = _mm512_fmadd_ps(t13, y1, t15);
-			acc0 = _mm512_fmadd_ps(s, t16, acc0);
+			const __m512 t13 = _mm512_mul_ps(t12, y0);
+			const __m512 t14 = _mm512_fmadd_ps(t11, y1, t13);
+			acc0 = _mm512_fmadd_ps(s, t14, acc0);
 		}
 		_mm512_storeu_ps(sum + pass, acc0);
 	}

@@ -16,40 +16,56 @@
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y0f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	const float32x4_t cx = vdupq_n_f32(origin);
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
+		const float32x4_t cx = vld1q_f32(origin + pass);
 		float32x4_t acc0 = vld1q_f32(sum + pass);
 		float32x4_t acc1 = vld1q_f32(sum + 16 + pass);
-		for (size_t i = pass; i < count; i += 32) {
+		size_t i = pass;
+		for (; i + step + 3 < count; i += 2 * step) {
+			{
+				const float32x4_t y0 = vld1q_f32(y + i);
+				const float32x4_t x1 = vld1q_f32(x + i + reach);
+				const float32x4_t y2 = vld1q_f32(y + i + 2 * reach);
+				const float32x4_t width = vsubq_f32(x1, cx);
+				const float32x4_t height = vsubq_f32(y2, y0);
+				acc0 = vfmaq_f32(acc0, width, height);
+			}
+			{
+				const float32x4_t y0 = vld1q_f32(y + i + step);
+				const float32x4_t x1 = vld1q_f32(x + i + step + reach);
+				const float32x4_t y2 = vld1q_f32(y + i + step + 2 * reach);
+				const float32x4_t width = vsubq_f32(x1, cx);
+				const float32x4_t height = vsubq_f32(y2, y0);
+				acc1 = vfmaq_f32(acc1, width, height);
+			}
+		}
+		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
 				float pad[4][4];
-				const float *at_y0 = rest < 4
-					? ew_ring_padf(pad[0], y + i, rest, 4) : y + i;
+				int at = 0;
+				const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 				const float32x4_t y0 = vld1q_f32(at_y0);
-				const float *at_x1 = rest < 4
-					? ew_ring_padf(pad[1], x + i + 1, rest, 4) : x + i + 1;
+				const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 				const float32x4_t x1 = vld1q_f32(at_x1);
-				const float *at_y2 = rest < 4
-					? ew_ring_padf(pad[2], y + i + 2, rest, 4) : y + i + 2;
+				const float *at_y2 = ew_ring_padf(pad[at++], y + i + 2 * reach, rest, 4);
 				const float32x4_t y2 = vld1q_f32(at_y2);
 				const float32x4_t width = vsubq_f32(x1, cx);
 				const float32x4_t height = vsubq_f32(y2, y0);
 				acc0 = vfmaq_f32(acc0, width, height);
 			}
 			{
-				const size_t rest = count - i > 16 ? count - i - 16 : 0;
+				const size_t rest = count - i > step ? count - i - step : 0;
 				float pad[4][4];
-				const float *at_y0 = rest < 4
-					? ew_ring_padf(pad[0], y + i + 16, rest, 4) : y + i + 16;
+				int at = 0;
+				const float *at_y0 = ew_ring_padf(pad[at++], y + i + step, rest, 4);
 				const float32x4_t y0 = vld1q_f32(at_y0);
-				const float *at_x1 = rest < 4
-					? ew_ring_padf(pad[1], x + i + 17, rest, 4) : x + i + 17;
+				const float *at_x1 = ew_ring_padf(pad[at++], x + i + step + reach, rest, 4);
 				const float32x4_t x1 = vld1q_f32(at_x1);
-				const float *at_y2 = rest < 4
-					? ew_ring_padf(pad[2], y + i + 18, rest, 4) : y + i + 18;
+				const float *at_y2 = ew_ring_padf(pad[at++], y + i + step + 2 * reach, rest, 4);
 				const float32x4_t y2 = vld1q_f32(at_y2);
 				const float32x4_t width = vsubq_f32(x1, cx);
 				const float32x4_t height = vsubq_f32(y2, y0);
@@ -64,25 +80,35 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y0f_neon(
 /* integral of x^1 y^0; scheme matrix.
  * Cost per item: 3 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 3. */
 EW_ATTRIBUTE_NEON void ew_ring_x1y0f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vaddq_f32(x0, x1);
+			acc0 = vfmaq_f32(acc0, s, t2);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -97,25 +123,35 @@ EW_ATTRIBUTE_NEON void ew_ring_x1y0f_neon(
 /* integral of x^0 y^1; scheme matrix.
  * Cost per item: 3 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 3. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y1f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vaddq_f32(y0, y1);
+			acc0 = vfmaq_f32(acc0, s, t2);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -130,25 +166,37 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y1f_neon(
 /* integral of x^2 y^0; scheme horner.
  * Cost per item: 5 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 4. */
 EW_ATTRIBUTE_NEON void ew_ring_x2y0f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vaddq_f32(x0, x1);
+			const float32x4_t t3 = vmulq_f32(t2, x0);
+			const float32x4_t t4 = vfmaq_f32(t3, x1, x1);
+			acc0 = vfmaq_f32(acc0, s, t4);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -165,25 +213,38 @@ EW_ATTRIBUTE_NEON void ew_ring_x2y0f_neon(
 /* integral of x^1 y^1; scheme matrix.
  * Cost per item: 7 mul or fma, 1 add; 1 accumulators, 7 values alive, depth 4. */
 EW_ATTRIBUTE_NEON void ew_ring_x1y1f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vfmaq_f32(y0, vdupq_n_f32(2.0f), y1);
+			const float32x4_t t3 = vfmaq_f32(y1, vdupq_n_f32(2.0f), y0);
+			const float32x4_t t4 = vmulq_f32(t3, x0);
+			const float32x4_t t5 = vfmaq_f32(t4, t2, x1);
+			acc0 = vfmaq_f32(acc0, s, t5);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -201,25 +262,37 @@ EW_ATTRIBUTE_NEON void ew_ring_x1y1f_neon(
 /* integral of x^0 y^2; scheme horner.
  * Cost per item: 5 mul or fma, 2 add; 1 accumulators, 5 values alive, depth 4. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y2f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vaddq_f32(y0, y1);
+			const float32x4_t t3 = vmulq_f32(t2, y0);
+			const float32x4_t t4 = vfmaq_f32(t3, y1, y1);
+			acc0 = vfmaq_f32(acc0, s, t4);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -236,25 +309,39 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y2f_neon(
 /* integral of x^3 y^0; scheme even-power.
  * Cost per item: 6 mul or fma, 3 add; 1 accumulators, 5 values alive, depth 5. */
 EW_ATTRIBUTE_NEON void ew_ring_x3y0f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t t2 = vmulq_f32(a, a);
+			const float32x4_t t3 = vfmaq_f32(t2, e, e);
+			const float32x4_t t4 = vmulq_f32(a, t3);
+			acc0 = vfmaq_f32(acc0, s, t4);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -273,25 +360,45 @@ EW_ATTRIBUTE_NEON void ew_ring_x3y0f_neon(
 /* integral of x^2 y^1; scheme even-power.
  * Cost per item: 10 mul or fma, 5 add; 1 accumulators, 7 values alive, depth 7. */
 EW_ATTRIBUTE_NEON void ew_ring_x2y1f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t t2 = vmulq_f32(a, a);
+			const float32x4_t t3 = vmulq_f32(vdupq_n_f32(3.0f), t2);
+			const float32x4_t t4 = vfmaq_f32(t3, e, e);
+			const float32x4_t t5 = vmulq_f32(b, t4);
+			const float32x4_t t6 = vmulq_f32(a, e);
+			const float32x4_t t7 = vmulq_f32(f, t6);
+			const float32x4_t t8 = vfmaq_f32(t5, vdupq_n_f32(2.0f), t7);
+			acc0 = vfmaq_f32(acc0, s, t8);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -316,25 +423,45 @@ EW_ATTRIBUTE_NEON void ew_ring_x2y1f_neon(
 /* integral of x^1 y^2; scheme even-power.
  * Cost per item: 10 mul or fma, 5 add; 1 accumulators, 7 values alive, depth 7. */
 EW_ATTRIBUTE_NEON void ew_ring_x1y2f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t t2 = vmulq_f32(b, b);
+			const float32x4_t t3 = vmulq_f32(vdupq_n_f32(3.0f), t2);
+			const float32x4_t t4 = vfmaq_f32(t3, f, f);
+			const float32x4_t t5 = vmulq_f32(a, t4);
+			const float32x4_t t6 = vmulq_f32(b, f);
+			const float32x4_t t7 = vmulq_f32(e, t6);
+			const float32x4_t t8 = vfmaq_f32(t5, vdupq_n_f32(2.0f), t7);
+			acc0 = vfmaq_f32(acc0, s, t8);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -359,25 +486,39 @@ EW_ATTRIBUTE_NEON void ew_ring_x1y2f_neon(
 /* integral of x^0 y^3; scheme even-power.
  * Cost per item: 6 mul or fma, 3 add; 1 accumulators, 5 values alive, depth 5. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y3f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t t2 = vmulq_f32(b, b);
+			const float32x4_t t3 = vfmaq_f32(t2, f, f);
+			const float32x4_t t4 = vmulq_f32(b, t3);
+			acc0 = vfmaq_f32(acc0, s, t4);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -396,25 +537,41 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y3f_neon(
 /* integral of x^4 y^0; scheme horner.
  * Cost per item: 9 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 6. */
 EW_ATTRIBUTE_NEON void ew_ring_x4y0f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vaddq_f32(x0, x1);
+			const float32x4_t t3 = vmulq_f32(x1, x1);
+			const float32x4_t t4 = vfmaq_f32(t3, t2, x0);
+			const float32x4_t t5 = vmulq_f32(t3, x1);
+			const float32x4_t t6 = vfmaq_f32(t5, t4, x0);
+			const float32x4_t t7 = vmulq_f32(t6, x0);
+			const float32x4_t t8 = vfmaq_f32(t7, t5, x1);
+			acc0 = vfmaq_f32(acc0, s, t8);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -435,25 +592,47 @@ EW_ATTRIBUTE_NEON void ew_ring_x4y0f_neon(
 /* integral of x^3 y^1; scheme even-power.
  * Cost per item: 10 mul or fma, 6 add; 1 accumulators, 9 values alive, depth 6. */
 EW_ATTRIBUTE_NEON void ew_ring_x3y1f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t t2 = vmulq_f32(a, a);
+			const float32x4_t t3 = vmulq_f32(e, e);
+			const float32x4_t t4 = vaddq_f32(t2, t3);
+			const float32x4_t t5 = vmulq_f32(a, b);
+			const float32x4_t t6 = vmulq_f32(t4, t5);
+			const float32x4_t t7 = vfmaq_f32(t2, vdupq_n_f32(0x1.99999ap-3f /* 1/5 */),
+				t3);
+			const float32x4_t t8 = vmulq_f32(e, f);
+			const float32x4_t t9 = vfmaq_f32(t6, t7, t8);
+			acc0 = vfmaq_f32(acc0, s, t9);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -480,25 +659,51 @@ EW_ATTRIBUTE_NEON void ew_ring_x3y1f_neon(
 /* integral of x^2 y^2; scheme even-power.
  * Cost per item: 15 mul or fma, 5 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_NEON void ew_ring_x2y2f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t t2 = vmulq_f32(b, b);
+			const float32x4_t t3 = vmulq_f32(f, f);
+			const float32x4_t t4 = vfmaq_f32(t3, vdupq_n_f32(3.0f), t2);
+			const float32x4_t t5 = vmulq_f32(a, a);
+			const float32x4_t t6 = vmulq_f32(t4, t5);
+			const float32x4_t t7 = vmulq_f32(a, e);
+			const float32x4_t t8 = vmulq_f32(b, f);
+			const float32x4_t t9 = vmulq_f32(t7, t8);
+			const float32x4_t t10 = vfmaq_f32(t6, vdupq_n_f32(4.0f), t9);
+			const float32x4_t t11 = vfmaq_f32(t2,
+				vdupq_n_f32(0x1.333334p-1f /* 3/5 */), t3);
+			const float32x4_t t12 = vmulq_f32(e, e);
+			const float32x4_t t13 = vfmaq_f32(t10, t11, t12);
+			acc0 = vfmaq_f32(acc0, s, t13);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -529,25 +734,47 @@ EW_ATTRIBUTE_NEON void ew_ring_x2y2f_neon(
 /* integral of x^1 y^3; scheme even-power.
  * Cost per item: 10 mul or fma, 6 add; 1 accumulators, 9 values alive, depth 6. */
 EW_ATTRIBUTE_NEON void ew_ring_x1y3f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t t2 = vmulq_f32(b, b);
+			const float32x4_t t3 = vmulq_f32(f, f);
+			const float32x4_t t4 = vaddq_f32(t2, t3);
+			const float32x4_t t5 = vmulq_f32(a, b);
+			const float32x4_t t6 = vmulq_f32(t4, t5);
+			const float32x4_t t7 = vfmaq_f32(t2, vdupq_n_f32(0x1.99999ap-3f /* 1/5 */),
+				t3);
+			const float32x4_t t8 = vmulq_f32(e, f);
+			const float32x4_t t9 = vfmaq_f32(t6, t7, t8);
+			acc0 = vfmaq_f32(acc0, s, t9);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -574,25 +801,41 @@ EW_ATTRIBUTE_NEON void ew_ring_x1y3f_neon(
 /* integral of x^0 y^4; scheme horner.
  * Cost per item: 9 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 6. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y4f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vaddq_f32(y0, y1);
+			const float32x4_t t3 = vmulq_f32(y1, y1);
+			const float32x4_t t4 = vfmaq_f32(t3, t2, y0);
+			const float32x4_t t5 = vmulq_f32(t3, y1);
+			const float32x4_t t6 = vfmaq_f32(t5, t4, y0);
+			const float32x4_t t7 = vmulq_f32(t6, y0);
+			const float32x4_t t8 = vfmaq_f32(t7, t5, y1);
+			acc0 = vfmaq_f32(acc0, s, t8);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -613,25 +856,43 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y4f_neon(
 /* integral of x^5 y^0; scheme horner.
  * Cost per item: 11 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 7. */
 EW_ATTRIBUTE_NEON void ew_ring_x5y0f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vaddq_f32(x0, x1);
+			const float32x4_t t3 = vmulq_f32(x1, x1);
+			const float32x4_t t4 = vfmaq_f32(t3, t2, x0);
+			const float32x4_t t5 = vmulq_f32(t3, x1);
+			const float32x4_t t6 = vfmaq_f32(t5, t4, x0);
+			const float32x4_t t7 = vmulq_f32(t5, x1);
+			const float32x4_t t8 = vfmaq_f32(t7, t6, x0);
+			const float32x4_t t9 = vmulq_f32(t8, x0);
+			const float32x4_t t10 = vfmaq_f32(t9, t7, x1);
+			acc0 = vfmaq_f32(acc0, s, t10);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -654,25 +915,53 @@ EW_ATTRIBUTE_NEON void ew_ring_x5y0f_neon(
 /* integral of x^4 y^1; scheme even-power.
  * Cost per item: 16 mul or fma, 5 add; 1 accumulators, 9 values alive, depth 8. */
 EW_ATTRIBUTE_NEON void ew_ring_x4y1f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t t2 = vmulq_f32(a, a);
+			const float32x4_t t3 = vmulq_f32(t2, t2);
+			const float32x4_t t4 = vmulq_f32(a, e);
+			const float32x4_t t5 = vmulq_f32(t4, t4);
+			const float32x4_t t6 = vfmaq_f32(t3, vdupq_n_f32(2.0f), t5);
+			const float32x4_t t7 = vmulq_f32(e, e);
+			const float32x4_t t8 = vmulq_f32(t7, t7);
+			const float32x4_t t9 = vfmaq_f32(t6, vdupq_n_f32(0x1.99999ap-3f /* 1/5 */),
+				t8);
+			const float32x4_t t10 = vmulq_f32(b, t9);
+			const float32x4_t t11 = vmulq_f32(vdupq_n_f32(0x1.555556p0f /* 4/3 */), t2);
+			const float32x4_t t12 = vfmaq_f32(t11,
+				vdupq_n_f32(0x1.99999ap-1f /* 4/5 */), t7);
+			const float32x4_t t13 = vmulq_f32(f, t4);
+			const float32x4_t t14 = vfmaq_f32(t10, t12, t13);
+			acc0 = vfmaq_f32(acc0, s, t14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -705,25 +994,57 @@ EW_ATTRIBUTE_NEON void ew_ring_x4y1f_neon(
 /* integral of x^3 y^2; scheme even-power.
  * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_NEON void ew_ring_x3y2f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t t2 = vmulq_f32(a, a);
+			const float32x4_t t3 = vmulq_f32(e, e);
+			const float32x4_t t4 = vaddq_f32(t2, t3);
+			const float32x4_t t5 = vmulq_f32(b, b);
+			const float32x4_t t6 = vmulq_f32(a, t5);
+			const float32x4_t t7 = vmulq_f32(t4, t6);
+			const float32x4_t t8 = vmulq_f32(vdupq_n_f32(2.0f), t2);
+			const float32x4_t t9 = vfmaq_f32(t8, vdupq_n_f32(0x1.99999ap-2f /* 2/5 */),
+				t3);
+			const float32x4_t t10 = vmulq_f32(b, f);
+			const float32x4_t t11 = vmulq_f32(e, t10);
+			const float32x4_t t12 = vfmaq_f32(t7, t9, t11);
+			const float32x4_t t13 = vmulq_f32(vdupq_n_f32(0x1.555556p-2f /* 1/3 */),
+				t2);
+			const float32x4_t t14 = vfmaq_f32(t13,
+				vdupq_n_f32(0x1.333334p-1f /* 3/5 */), t3);
+			const float32x4_t t15 = vmulq_f32(f, f);
+			const float32x4_t t16 = vmulq_f32(a, t15);
+			const float32x4_t t17 = vfmaq_f32(t12, t14, t16);
+			acc0 = vfmaq_f32(acc0, s, t17);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -760,25 +1081,57 @@ EW_ATTRIBUTE_NEON void ew_ring_x3y2f_neon(
 /* integral of x^2 y^3; scheme even-power.
  * Cost per item: 18 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 7. */
 EW_ATTRIBUTE_NEON void ew_ring_x2y3f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t t2 = vmulq_f32(b, b);
+			const float32x4_t t3 = vmulq_f32(f, f);
+			const float32x4_t t4 = vaddq_f32(t2, t3);
+			const float32x4_t t5 = vmulq_f32(a, a);
+			const float32x4_t t6 = vmulq_f32(b, t5);
+			const float32x4_t t7 = vmulq_f32(t4, t6);
+			const float32x4_t t8 = vmulq_f32(vdupq_n_f32(2.0f), t2);
+			const float32x4_t t9 = vfmaq_f32(t8, vdupq_n_f32(0x1.99999ap-2f /* 2/5 */),
+				t3);
+			const float32x4_t t10 = vmulq_f32(a, e);
+			const float32x4_t t11 = vmulq_f32(f, t10);
+			const float32x4_t t12 = vfmaq_f32(t7, t9, t11);
+			const float32x4_t t13 = vmulq_f32(vdupq_n_f32(0x1.555556p-2f /* 1/3 */),
+				t2);
+			const float32x4_t t14 = vfmaq_f32(t13,
+				vdupq_n_f32(0x1.333334p-1f /* 3/5 */), t3);
+			const float32x4_t t15 = vmulq_f32(e, e);
+			const float32x4_t t16 = vmulq_f32(b, t15);
+			const float32x4_t t17 = vfmaq_f32(t12, t14, t16);
+			acc0 = vfmaq_f32(acc0, s, t17);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -815,25 +1168,53 @@ EW_ATTRIBUTE_NEON void ew_ring_x2y3f_neon(
 /* integral of x^1 y^4; scheme even-power.
  * Cost per item: 16 mul or fma, 5 add; 1 accumulators, 9 values alive, depth 8. */
 EW_ATTRIBUTE_NEON void ew_ring_x1y4f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t t2 = vmulq_f32(b, b);
+			const float32x4_t t3 = vmulq_f32(t2, t2);
+			const float32x4_t t4 = vmulq_f32(b, f);
+			const float32x4_t t5 = vmulq_f32(t4, t4);
+			const float32x4_t t6 = vfmaq_f32(t3, vdupq_n_f32(2.0f), t5);
+			const float32x4_t t7 = vmulq_f32(f, f);
+			const float32x4_t t8 = vmulq_f32(t7, t7);
+			const float32x4_t t9 = vfmaq_f32(t6, vdupq_n_f32(0x1.99999ap-3f /* 1/5 */),
+				t8);
+			const float32x4_t t10 = vmulq_f32(a, t9);
+			const float32x4_t t11 = vmulq_f32(vdupq_n_f32(0x1.555556p0f /* 4/3 */), t2);
+			const float32x4_t t12 = vfmaq_f32(t11,
+				vdupq_n_f32(0x1.99999ap-1f /* 4/5 */), t7);
+			const float32x4_t t13 = vmulq_f32(e, t4);
+			const float32x4_t t14 = vfmaq_f32(t10, t12, t13);
+			acc0 = vfmaq_f32(acc0, s, t14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -866,25 +1247,43 @@ EW_ATTRIBUTE_NEON void ew_ring_x1y4f_neon(
 /* integral of x^0 y^5; scheme horner.
  * Cost per item: 11 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 7. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y5f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vaddq_f32(y0, y1);
+			const float32x4_t t3 = vmulq_f32(y1, y1);
+			const float32x4_t t4 = vfmaq_f32(t3, t2, y0);
+			const float32x4_t t5 = vmulq_f32(t3, y1);
+			const float32x4_t t6 = vfmaq_f32(t5, t4, y0);
+			const float32x4_t t7 = vmulq_f32(t5, y1);
+			const float32x4_t t8 = vfmaq_f32(t7, t6, y0);
+			const float32x4_t t9 = vmulq_f32(t8, y0);
+			const float32x4_t t10 = vfmaq_f32(t9, t7, y1);
+			acc0 = vfmaq_f32(acc0, s, t10);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -907,25 +1306,45 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y5f_neon(
 /* integral of x^6 y^0; scheme horner.
  * Cost per item: 13 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 8. */
 EW_ATTRIBUTE_NEON void ew_ring_x6y0f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vaddq_f32(x0, x1);
+			const float32x4_t t3 = vmulq_f32(x1, x1);
+			const float32x4_t t4 = vfmaq_f32(t3, t2, x0);
+			const float32x4_t t5 = vmulq_f32(t3, x1);
+			const float32x4_t t6 = vfmaq_f32(t5, t4, x0);
+			const float32x4_t t7 = vmulq_f32(t5, x1);
+			const float32x4_t t8 = vfmaq_f32(t7, t6, x0);
+			const float32x4_t t9 = vmulq_f32(t7, x1);
+			const float32x4_t t10 = vfmaq_f32(t9, t8, x0);
+			const float32x4_t t11 = vmulq_f32(t10, x0);
+			const float32x4_t t12 = vfmaq_f32(t11, t9, x1);
+			acc0 = vfmaq_f32(acc0, s, t12);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -950,25 +1369,55 @@ EW_ATTRIBUTE_NEON void ew_ring_x6y0f_neon(
 /* integral of x^5 y^1; scheme even-power.
  * Cost per item: 17 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 8. */
 EW_ATTRIBUTE_NEON void ew_ring_x5y1f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t t0 = vmulq_f32(a, e);
+			const float32x4_t t1 = vmulq_f32(t0, t0);
+			const float32x4_t t2 = vmulq_f32(a, a);
+			const float32x4_t t3 = vmulq_f32(t2, t2);
+			const float32x4_t t4 = vmulq_f32(vdupq_n_f32(0x1.aaaaaap0f /* 5/3 */), t3);
+			const float32x4_t t5 = vfmaq_f32(t4, vdupq_n_f32(2.0f), t1);
+			const float32x4_t t6 = vmulq_f32(e, e);
+			const float32x4_t t7 = vmulq_f32(t6, t6);
+			const float32x4_t t8 = vfmaq_f32(t5, vdupq_n_f32(0x1.24924ap-3f /* 1/7 */),
+				t7);
+			const float32x4_t t9 = vfmaq_f32(t3, vdupq_n_f32(0x1.aaaaaap1f /* 10/3 */),
+				t1);
+			const float32x4_t t10 = vaddq_f32(t9, t7);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t t11 = vmulq_f32(a, b);
+			const float32x4_t t12 = vmulq_f32(t10, t11);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t t13 = vmulq_f32(e, f);
+			const float32x4_t t14 = vfmaq_f32(t12, t8, t13);
+			const float32x4_t t15 = vmulq_f32(x0, y1);
+			const float32x4_t t16 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t15, t16);
+			acc0 = vfmaq_f32(acc0, s, t14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t a = vaddq_f32(x0, x1);
 			const float32x4_t e = vsubq_f32(x1, x0);
@@ -1003,25 +1452,63 @@ EW_ATTRIBUTE_NEON void ew_ring_x5y1f_neon(
 /* integral of x^4 y^2; scheme even-power.
  * Cost per item: 23 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_NEON void ew_ring_x4y2f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t t2 = vmulq_f32(a, a);
+			const float32x4_t t3 = vmulq_f32(t2, t2);
+			const float32x4_t t4 = vmulq_f32(a, e);
+			const float32x4_t t5 = vmulq_f32(t4, t4);
+			const float32x4_t t6 = vfmaq_f32(t3, vdupq_n_f32(2.0f), t5);
+			const float32x4_t t7 = vmulq_f32(e, e);
+			const float32x4_t t8 = vmulq_f32(t7, t7);
+			const float32x4_t t9 = vfmaq_f32(t6, vdupq_n_f32(0x1.99999ap-3f /* 1/5 */),
+				t8);
+			const float32x4_t t10 = vmulq_f32(b, b);
+			const float32x4_t t11 = vmulq_f32(t9, t10);
+			const float32x4_t t12 = vmulq_f32(vdupq_n_f32(0x1.555556p1f /* 8/3 */), t2);
+			const float32x4_t t13 = vfmaq_f32(t12,
+				vdupq_n_f32(0x1.99999ap0f /* 8/5 */), t7);
+			const float32x4_t t14 = vmulq_f32(b, f);
+			const float32x4_t t15 = vmulq_f32(t4, t14);
+			const float32x4_t t16 = vfmaq_f32(t11, t13, t15);
+			const float32x4_t t17 = vmulq_f32(vdupq_n_f32(0x1.555556p-2f /* 1/3 */),
+				t3);
+			const float32x4_t t18 = vfmaq_f32(t17,
+				vdupq_n_f32(0x1.333334p0f /* 6/5 */), t5);
+			const float32x4_t t19 = vfmaq_f32(t18,
+				vdupq_n_f32(0x1.24924ap-3f /* 1/7 */), t8);
+			const float32x4_t t20 = vmulq_f32(f, f);
+			const float32x4_t t21 = vfmaq_f32(t16, t19, t20);
+			acc0 = vfmaq_f32(acc0, s, t21);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -1064,25 +1551,62 @@ EW_ATTRIBUTE_NEON void ew_ring_x4y2f_neon(
 /* integral of x^3 y^3; scheme even-power.
  * Cost per item: 25 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_NEON void ew_ring_x3y3f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t t2 = vmulq_f32(b, b);
+			const float32x4_t t3 = vmulq_f32(vdupq_n_f32(0x1.aaaaaap0f /* 5/3 */), t2);
+			const float32x4_t t4 = vmulq_f32(f, f);
+			const float32x4_t t5 = vfmaq_f32(t3, vdupq_n_f32(0x1.aaaaaap0f /* 5/3 */),
+				t4);
+			const float32x4_t t6 = vmulq_f32(a, a);
+			const float32x4_t t7 = vmulq_f32(a, t6);
+			const float32x4_t t8 = vmulq_f32(b, t7);
+			const float32x4_t t9 = vmulq_f32(t5, t8);
+			const float32x4_t t10 = vfmaq_f32(t4, vdupq_n_f32(5.0f), t2);
+			const float32x4_t t11 = vmulq_f32(a, e);
+			const float32x4_t t12 = vmulq_f32(a, t11);
+			const float32x4_t t13 = vmulq_f32(f, t12);
+			const float32x4_t t14 = vfmaq_f32(t9, t10, t13);
+			const float32x4_t t15 = vfmaq_f32(t3, vdupq_n_f32(3.0f), t4);
+			const float32x4_t t16 = vmulq_f32(e, t11);
+			const float32x4_t t17 = vmulq_f32(b, t16);
+			const float32x4_t t18 = vfmaq_f32(t14, t15, t17);
+			const float32x4_t t19 = vfmaq_f32(t2,
+				vdupq_n_f32(0x1.e79e7ap-3f /* 5/21 */), t4);
+			const float32x4_t t20 = vmulq_f32(e, e);
+			const float32x4_t t21 = vmulq_f32(e, t20);
+			const float32x4_t t22 = vmulq_f32(f, t21);
+			const float32x4_t t23 = vfmaq_f32(t18, t19, t22);
+			acc0 = vfmaq_f32(acc0, s, t23);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -1124,25 +1648,63 @@ EW_ATTRIBUTE_NEON void ew_ring_x3y3f_neon(
 /* integral of x^2 y^4; scheme even-power.
  * Cost per item: 23 mul or fma, 5 add; 1 accumulators, 12 values alive, depth 9. */
 EW_ATTRIBUTE_NEON void ew_ring_x2y4f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t t2 = vmulq_f32(b, b);
+			const float32x4_t t3 = vmulq_f32(t2, t2);
+			const float32x4_t t4 = vmulq_f32(b, f);
+			const float32x4_t t5 = vmulq_f32(t4, t4);
+			const float32x4_t t6 = vfmaq_f32(t3, vdupq_n_f32(2.0f), t5);
+			const float32x4_t t7 = vmulq_f32(f, f);
+			const float32x4_t t8 = vmulq_f32(t7, t7);
+			const float32x4_t t9 = vfmaq_f32(t6, vdupq_n_f32(0x1.99999ap-3f /* 1/5 */),
+				t8);
+			const float32x4_t t10 = vmulq_f32(a, a);
+			const float32x4_t t11 = vmulq_f32(t9, t10);
+			const float32x4_t t12 = vmulq_f32(vdupq_n_f32(0x1.555556p1f /* 8/3 */), t2);
+			const float32x4_t t13 = vfmaq_f32(t12,
+				vdupq_n_f32(0x1.99999ap0f /* 8/5 */), t7);
+			const float32x4_t t14 = vmulq_f32(a, e);
+			const float32x4_t t15 = vmulq_f32(t4, t14);
+			const float32x4_t t16 = vfmaq_f32(t11, t13, t15);
+			const float32x4_t t17 = vmulq_f32(vdupq_n_f32(0x1.555556p-2f /* 1/3 */),
+				t3);
+			const float32x4_t t18 = vfmaq_f32(t17,
+				vdupq_n_f32(0x1.333334p0f /* 6/5 */), t5);
+			const float32x4_t t19 = vfmaq_f32(t18,
+				vdupq_n_f32(0x1.24924ap-3f /* 1/7 */), t8);
+			const float32x4_t t20 = vmulq_f32(e, e);
+			const float32x4_t t21 = vfmaq_f32(t16, t19, t20);
+			acc0 = vfmaq_f32(acc0, s, t21);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -1185,25 +1747,55 @@ EW_ATTRIBUTE_NEON void ew_ring_x2y4f_neon(
 /* integral of x^1 y^5; scheme even-power.
  * Cost per item: 17 mul or fma, 6 add; 1 accumulators, 10 values alive, depth 8. */
 EW_ATTRIBUTE_NEON void ew_ring_x1y5f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t t0 = vmulq_f32(b, f);
+			const float32x4_t t1 = vmulq_f32(t0, t0);
+			const float32x4_t t2 = vmulq_f32(b, b);
+			const float32x4_t t3 = vmulq_f32(t2, t2);
+			const float32x4_t t4 = vmulq_f32(vdupq_n_f32(0x1.aaaaaap0f /* 5/3 */), t3);
+			const float32x4_t t5 = vfmaq_f32(t4, vdupq_n_f32(2.0f), t1);
+			const float32x4_t t6 = vmulq_f32(f, f);
+			const float32x4_t t7 = vmulq_f32(t6, t6);
+			const float32x4_t t8 = vfmaq_f32(t5, vdupq_n_f32(0x1.24924ap-3f /* 1/7 */),
+				t7);
+			const float32x4_t t9 = vfmaq_f32(t3, vdupq_n_f32(0x1.aaaaaap1f /* 10/3 */),
+				t1);
+			const float32x4_t t10 = vaddq_f32(t9, t7);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t t11 = vmulq_f32(a, b);
+			const float32x4_t t12 = vmulq_f32(t10, t11);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t t13 = vmulq_f32(e, f);
+			const float32x4_t t14 = vfmaq_f32(t12, t8, t13);
+			const float32x4_t t15 = vmulq_f32(x0, y1);
+			const float32x4_t t16 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t15, t16);
+			acc0 = vfmaq_f32(acc0, s, t14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t b = vaddq_f32(y0, y1);
 			const float32x4_t f = vsubq_f32(y1, y0);
@@ -1238,25 +1830,45 @@ EW_ATTRIBUTE_NEON void ew_ring_x1y5f_neon(
 /* integral of x^0 y^6; scheme horner.
  * Cost per item: 13 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 8. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y6f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vaddq_f32(y0, y1);
+			const float32x4_t t3 = vmulq_f32(y1, y1);
+			const float32x4_t t4 = vfmaq_f32(t3, t2, y0);
+			const float32x4_t t5 = vmulq_f32(t3, y1);
+			const float32x4_t t6 = vfmaq_f32(t5, t4, y0);
+			const float32x4_t t7 = vmulq_f32(t5, y1);
+			const float32x4_t t8 = vfmaq_f32(t7, t6, y0);
+			const float32x4_t t9 = vmulq_f32(t7, y1);
+			const float32x4_t t10 = vfmaq_f32(t9, t8, y0);
+			const float32x4_t t11 = vmulq_f32(t10, y0);
+			const float32x4_t t12 = vfmaq_f32(t11, t9, y1);
+			acc0 = vfmaq_f32(acc0, s, t12);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -1281,25 +1893,47 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y6f_neon(
 /* integral of x^7 y^0; scheme horner.
  * Cost per item: 15 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 9. */
 EW_ATTRIBUTE_NEON void ew_ring_x7y0f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vaddq_f32(x0, x1);
+			const float32x4_t t3 = vmulq_f32(x1, x1);
+			const float32x4_t t4 = vfmaq_f32(t3, t2, x0);
+			const float32x4_t t5 = vmulq_f32(t3, x1);
+			const float32x4_t t6 = vfmaq_f32(t5, t4, x0);
+			const float32x4_t t7 = vmulq_f32(t5, x1);
+			const float32x4_t t8 = vfmaq_f32(t7, t6, x0);
+			const float32x4_t t9 = vmulq_f32(t7, x1);
+			const float32x4_t t10 = vfmaq_f32(t9, t8, x0);
+			const float32x4_t t11 = vmulq_f32(t9, x1);
+			const float32x4_t t12 = vfmaq_f32(t11, t10, x0);
+			const float32x4_t t13 = vmulq_f32(t12, x0);
+			const float32x4_t t14 = vfmaq_f32(t13, t11, x1);
+			acc0 = vfmaq_f32(acc0, s, t14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -1326,25 +1960,65 @@ EW_ATTRIBUTE_NEON void ew_ring_x7y0f_neon(
 /* integral of x^6 y^1; scheme matrix.
  * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_NEON void ew_ring_x6y1f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, x0);
+			const float32x4_t t1 = vmulq_f32(t0, t0);
+			const float32x4_t t2 = vmulq_f32(x0, x1);
+			const float32x4_t t3 = vmulq_f32(t2, t1);
+			const float32x4_t t4 = vmulq_f32(t0, x0);
+			const float32x4_t t5 = vmulq_f32(t4, t4);
+			const float32x4_t t6 = vfmaq_f32(t5, vdupq_n_f32(2.0f), t3);
+			const float32x4_t t7 = vmulq_f32(t2, t2);
+			const float32x4_t t8 = vmulq_f32(t0, t7);
+			const float32x4_t t9 = vfmaq_f32(t6, vdupq_n_f32(3.0f), t8);
+			const float32x4_t t10 = vmulq_f32(t2, t7);
+			const float32x4_t t11 = vmulq_f32(vdupq_n_f32(4.0f), t10);
+			const float32x4_t t12 = vaddq_f32(t11, t9);
+			const float32x4_t t13 = vmulq_f32(x1, x1);
+			const float32x4_t t14 = vmulq_f32(t7, t13);
+			const float32x4_t t15 = vfmaq_f32(t12, vdupq_n_f32(5.0f), t14);
+			const float32x4_t t16 = vmulq_f32(t13, t13);
+			const float32x4_t t17 = vmulq_f32(t2, t16);
+			const float32x4_t t18 = vfmaq_f32(t15, vdupq_n_f32(6.0f), t17);
+			const float32x4_t t19 = vmulq_f32(t13, x1);
+			const float32x4_t t20 = vmulq_f32(t19, t19);
+			const float32x4_t t21 = vfmaq_f32(t18, vdupq_n_f32(7.0f), t20);
+			const float32x4_t t22 = vmulq_f32(vdupq_n_f32(7.0f), t5);
+			const float32x4_t t23 = vfmaq_f32(t22, vdupq_n_f32(6.0f), t3);
+			const float32x4_t t24 = vfmaq_f32(t23, vdupq_n_f32(5.0f), t8);
+			const float32x4_t t25 = vaddq_f32(t24, t11);
+			const float32x4_t t26 = vfmaq_f32(t25, vdupq_n_f32(3.0f), t14);
+			const float32x4_t t27 = vfmaq_f32(t26, vdupq_n_f32(2.0f), t17);
+			const float32x4_t t28 = vaddq_f32(t27, t20);
+			const float32x4_t t29 = vmulq_f32(t28, y0);
+			const float32x4_t t30 = vfmaq_f32(t29, t21, y1);
+			const float32x4_t t31 = vmulq_f32(x0, y1);
+			const float32x4_t t32 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t31, t32);
+			acc0 = vfmaq_f32(acc0, s, t30);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, x0);
 			const float32x4_t t1 = vmulq_f32(t0, t0);
@@ -1389,25 +2063,75 @@ EW_ATTRIBUTE_NEON void ew_ring_x6y1f_neon(
 /* integral of x^5 y^2; scheme matrix.
  * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_NEON void ew_ring_x5y2f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vmulq_f32(x0, x0);
+			const float32x4_t t3 = vmulq_f32(t2, x0);
+			const float32x4_t t4 = vmulq_f32(t2, t3);
+			const float32x4_t t5 = vmulq_f32(vdupq_n_f32(3.5f), t4);
+			const float32x4_t t6 = vmulq_f32(x0, x1);
+			const float32x4_t t7 = vmulq_f32(t3, t6);
+			const float32x4_t t8 = vfmaq_f32(t5, vdupq_n_f32(2.5f), t7);
+			const float32x4_t t9 = vmulq_f32(t6, t6);
+			const float32x4_t t10 = vmulq_f32(t9, x0);
+			const float32x4_t t11 = vfmaq_f32(t8, vdupq_n_f32(0x1.aaaaaap0f /* 5/3 */),
+				t10);
+			const float32x4_t t12 = vmulq_f32(t9, x1);
+			const float32x4_t t13 = vaddq_f32(t11, t12);
+			const float32x4_t t14 = vmulq_f32(x1, x1);
+			const float32x4_t t15 = vmulq_f32(t14, x1);
+			const float32x4_t t16 = vmulq_f32(t6, t15);
+			const float32x4_t t17 = vfmaq_f32(t13, vdupq_n_f32(0.5f), t16);
+			const float32x4_t t18 = vmulq_f32(t14, t15);
+			const float32x4_t t19 = vfmaq_f32(t17,
+				vdupq_n_f32(0x1.555556p-3f /* 1/6 */), t18);
+			const float32x4_t t20 = vmulq_f32(y0, y0);
+			const float32x4_t t21 = vmulq_f32(t19, t20);
+			const float32x4_t t22 = vfmaq_f32(t4, vdupq_n_f32(0x1.aaaaaap0f /* 5/3 */),
+				t7);
+			const float32x4_t t23 = vfmaq_f32(t22, vdupq_n_f32(2.0f), t10);
+			const float32x4_t t24 = vfmaq_f32(t23, vdupq_n_f32(2.0f), t12);
+			const float32x4_t t25 = vfmaq_f32(t24,
+				vdupq_n_f32(0x1.aaaaaap0f /* 5/3 */), t16);
+			const float32x4_t t26 = vaddq_f32(t18, t25);
+			const float32x4_t t27 = vmulq_f32(y0, y1);
+			const float32x4_t t28 = vfmaq_f32(t21, t26, t27);
+			const float32x4_t t29 = vmulq_f32(vdupq_n_f32(0x1.555556p-3f /* 1/6 */),
+				t4);
+			const float32x4_t t30 = vfmaq_f32(t29, vdupq_n_f32(0.5f), t7);
+			const float32x4_t t31 = vaddq_f32(t10, t30);
+			const float32x4_t t32 = vfmaq_f32(t31,
+				vdupq_n_f32(0x1.aaaaaap0f /* 5/3 */), t12);
+			const float32x4_t t33 = vfmaq_f32(t32, vdupq_n_f32(2.5f), t16);
+			const float32x4_t t34 = vfmaq_f32(t33, vdupq_n_f32(3.5f), t18);
+			const float32x4_t t35 = vmulq_f32(y1, y1);
+			const float32x4_t t36 = vfmaq_f32(t28, t34, t35);
+			acc0 = vfmaq_f32(acc0, s, t36);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -1462,25 +2186,80 @@ EW_ATTRIBUTE_NEON void ew_ring_x5y2f_neon(
 /* integral of x^4 y^3; scheme matrix.
  * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_NEON void ew_ring_x4y3f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vmulq_f32(x0, x0);
+			const float32x4_t t3 = vmulq_f32(t2, t2);
+			const float32x4_t t4 = vmulq_f32(x0, x1);
+			const float32x4_t t5 = vmulq_f32(t2, t4);
+			const float32x4_t t6 = vfmaq_f32(t5, vdupq_n_f32(1.75f), t3);
+			const float32x4_t t7 = vmulq_f32(t4, t4);
+			const float32x4_t t8 = vmulq_f32(vdupq_n_f32(0.5f), t7);
+			const float32x4_t t9 = vaddq_f32(t6, t8);
+			const float32x4_t t10 = vmulq_f32(x1, x1);
+			const float32x4_t t11 = vmulq_f32(t4, t10);
+			const float32x4_t t12 = vfmaq_f32(t9,
+				vdupq_n_f32(0x1.99999ap-3f /* 1/5 */), t11);
+			const float32x4_t t13 = vmulq_f32(t10, t10);
+			const float32x4_t t14 = vfmaq_f32(t12,
+				vdupq_n_f32(0x1.99999ap-5f /* 1/20 */), t13);
+			const float32x4_t t15 = vmulq_f32(y0, y0);
+			const float32x4_t t16 = vmulq_f32(t15, y0);
+			const float32x4_t t17 = vmulq_f32(t14, t16);
+			const float32x4_t t18 = vfmaq_f32(t5, vdupq_n_f32(0.75f), t3);
+			const float32x4_t t19 = vmulq_f32(vdupq_n_f32(0x1.ccccccp-1f /* 9/10 */),
+				t7);
+			const float32x4_t t20 = vaddq_f32(t18, t19);
+			const float32x4_t t21 = vfmaq_f32(t20,
+				vdupq_n_f32(0x1.333334p-1f /* 3/5 */), t11);
+			const float32x4_t t22 = vfmaq_f32(t21, vdupq_n_f32(0.25f), t13);
+			const float32x4_t t23 = vmulq_f32(y0, y1);
+			const float32x4_t t24 = vmulq_f32(t23, y0);
+			const float32x4_t t25 = vfmaq_f32(t17, t22, t24);
+			const float32x4_t t26 = vmulq_f32(vdupq_n_f32(0.25f), t3);
+			const float32x4_t t27 = vfmaq_f32(t26,
+				vdupq_n_f32(0x1.333334p-1f /* 3/5 */), t5);
+			const float32x4_t t28 = vaddq_f32(t19, t27);
+			const float32x4_t t29 = vaddq_f32(t11, t28);
+			const float32x4_t t30 = vfmaq_f32(t29, vdupq_n_f32(0.75f), t13);
+			const float32x4_t t31 = vmulq_f32(t23, y1);
+			const float32x4_t t32 = vfmaq_f32(t25, t30, t31);
+			const float32x4_t t33 = vmulq_f32(vdupq_n_f32(0x1.99999ap-5f /* 1/20 */),
+				t3);
+			const float32x4_t t34 = vfmaq_f32(t33,
+				vdupq_n_f32(0x1.99999ap-3f /* 1/5 */), t5);
+			const float32x4_t t35 = vaddq_f32(t8, t34);
+			const float32x4_t t36 = vaddq_f32(t11, t35);
+			const float32x4_t t37 = vfmaq_f32(t36, vdupq_n_f32(1.75f), t13);
+			const float32x4_t t38 = vmulq_f32(y1, y1);
+			const float32x4_t t39 = vmulq_f32(t38, y1);
+			const float32x4_t t40 = vfmaq_f32(t32, t37, t39);
+			acc0 = vfmaq_f32(acc0, s, t40);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -1540,25 +2319,80 @@ EW_ATTRIBUTE_NEON void ew_ring_x4y3f_neon(
 /* integral of x^3 y^4; scheme matrix.
  * Cost per item: 36 mul or fma, 7 add; 1 accumulators, 13 values alive, depth 11. */
 EW_ATTRIBUTE_NEON void ew_ring_x3y4f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vmulq_f32(y0, y0);
+			const float32x4_t t3 = vmulq_f32(t2, t2);
+			const float32x4_t t4 = vmulq_f32(y0, y1);
+			const float32x4_t t5 = vmulq_f32(t2, t4);
+			const float32x4_t t6 = vfmaq_f32(t5, vdupq_n_f32(1.75f), t3);
+			const float32x4_t t7 = vmulq_f32(t4, t4);
+			const float32x4_t t8 = vmulq_f32(vdupq_n_f32(0.5f), t7);
+			const float32x4_t t9 = vaddq_f32(t6, t8);
+			const float32x4_t t10 = vmulq_f32(y1, y1);
+			const float32x4_t t11 = vmulq_f32(t4, t10);
+			const float32x4_t t12 = vfmaq_f32(t9,
+				vdupq_n_f32(0x1.99999ap-3f /* 1/5 */), t11);
+			const float32x4_t t13 = vmulq_f32(t10, t10);
+			const float32x4_t t14 = vfmaq_f32(t12,
+				vdupq_n_f32(0x1.99999ap-5f /* 1/20 */), t13);
+			const float32x4_t t15 = vmulq_f32(x0, x0);
+			const float32x4_t t16 = vmulq_f32(t15, x0);
+			const float32x4_t t17 = vmulq_f32(t14, t16);
+			const float32x4_t t18 = vfmaq_f32(t5, vdupq_n_f32(0.75f), t3);
+			const float32x4_t t19 = vmulq_f32(vdupq_n_f32(0x1.ccccccp-1f /* 9/10 */),
+				t7);
+			const float32x4_t t20 = vaddq_f32(t18, t19);
+			const float32x4_t t21 = vfmaq_f32(t20,
+				vdupq_n_f32(0x1.333334p-1f /* 3/5 */), t11);
+			const float32x4_t t22 = vfmaq_f32(t21, vdupq_n_f32(0.25f), t13);
+			const float32x4_t t23 = vmulq_f32(x0, x1);
+			const float32x4_t t24 = vmulq_f32(t23, x0);
+			const float32x4_t t25 = vfmaq_f32(t17, t22, t24);
+			const float32x4_t t26 = vmulq_f32(vdupq_n_f32(0.25f), t3);
+			const float32x4_t t27 = vfmaq_f32(t26,
+				vdupq_n_f32(0x1.333334p-1f /* 3/5 */), t5);
+			const float32x4_t t28 = vaddq_f32(t19, t27);
+			const float32x4_t t29 = vaddq_f32(t11, t28);
+			const float32x4_t t30 = vfmaq_f32(t29, vdupq_n_f32(0.75f), t13);
+			const float32x4_t t31 = vmulq_f32(t23, x1);
+			const float32x4_t t32 = vfmaq_f32(t25, t30, t31);
+			const float32x4_t t33 = vmulq_f32(vdupq_n_f32(0x1.99999ap-5f /* 1/20 */),
+				t3);
+			const float32x4_t t34 = vfmaq_f32(t33,
+				vdupq_n_f32(0x1.99999ap-3f /* 1/5 */), t5);
+			const float32x4_t t35 = vaddq_f32(t8, t34);
+			const float32x4_t t36 = vaddq_f32(t11, t35);
+			const float32x4_t t37 = vfmaq_f32(t36, vdupq_n_f32(1.75f), t13);
+			const float32x4_t t38 = vmulq_f32(x1, x1);
+			const float32x4_t t39 = vmulq_f32(t38, x1);
+			const float32x4_t t40 = vfmaq_f32(t32, t37, t39);
+			acc0 = vfmaq_f32(acc0, s, t40);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -1618,25 +2452,81 @@ EW_ATTRIBUTE_NEON void ew_ring_x3y4f_neon(
 /* integral of x^2 y^5; scheme matrix.
  * Cost per item: 35 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_NEON void ew_ring_x2y5f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vmulq_f32(y0, y0);
+			const float32x4_t t3 = vmulq_f32(t2, y0);
+			const float32x4_t t4 = vmulq_f32(t2, t3);
+			const float32x4_t t5 = vmulq_f32(vdupq_n_f32(0x1.0cccccp1f /* 21/10 */),
+				t4);
+			const float32x4_t t6 = vmulq_f32(y0, y1);
+			const float32x4_t t7 = vmulq_f32(t3, t6);
+			const float32x4_t t8 = vfmaq_f32(t5, vdupq_n_f32(1.5f), t7);
+			const float32x4_t t9 = vmulq_f32(t6, t6);
+			const float32x4_t t10 = vmulq_f32(t9, y0);
+			const float32x4_t t11 = vaddq_f32(t8, t10);
+			const float32x4_t t12 = vmulq_f32(t9, y1);
+			const float32x4_t t13 = vfmaq_f32(t11,
+				vdupq_n_f32(0x1.333334p-1f /* 3/5 */), t12);
+			const float32x4_t t14 = vmulq_f32(y1, y1);
+			const float32x4_t t15 = vmulq_f32(t14, y1);
+			const float32x4_t t16 = vmulq_f32(t6, t15);
+			const float32x4_t t17 = vfmaq_f32(t13,
+				vdupq_n_f32(0x1.333334p-2f /* 3/10 */), t16);
+			const float32x4_t t18 = vmulq_f32(t14, t15);
+			const float32x4_t t19 = vfmaq_f32(t17,
+				vdupq_n_f32(0x1.99999ap-4f /* 1/10 */), t18);
+			const float32x4_t t20 = vmulq_f32(x0, x0);
+			const float32x4_t t21 = vmulq_f32(t19, t20);
+			const float32x4_t t22 = vfmaq_f32(t7,
+				vdupq_n_f32(0x1.333334p-1f /* 3/5 */), t4);
+			const float32x4_t t23 = vfmaq_f32(t22,
+				vdupq_n_f32(0x1.333334p0f /* 6/5 */), t10);
+			const float32x4_t t24 = vfmaq_f32(t23,
+				vdupq_n_f32(0x1.333334p0f /* 6/5 */), t12);
+			const float32x4_t t25 = vaddq_f32(t16, t24);
+			const float32x4_t t26 = vfmaq_f32(t25,
+				vdupq_n_f32(0x1.333334p-1f /* 3/5 */), t18);
+			const float32x4_t t27 = vmulq_f32(x0, x1);
+			const float32x4_t t28 = vfmaq_f32(t21, t26, t27);
+			const float32x4_t t29 = vmulq_f32(vdupq_n_f32(0x1.99999ap-4f /* 1/10 */),
+				t4);
+			const float32x4_t t30 = vfmaq_f32(t29,
+				vdupq_n_f32(0x1.333334p-2f /* 3/10 */), t7);
+			const float32x4_t t31 = vfmaq_f32(t30,
+				vdupq_n_f32(0x1.333334p-1f /* 3/5 */), t10);
+			const float32x4_t t32 = vaddq_f32(t12, t31);
+			const float32x4_t t33 = vfmaq_f32(t32, vdupq_n_f32(1.5f), t16);
+			const float32x4_t t34 = vfmaq_f32(t33,
+				vdupq_n_f32(0x1.0cccccp1f /* 21/10 */), t18);
+			const float32x4_t t35 = vmulq_f32(x1, x1);
+			const float32x4_t t36 = vfmaq_f32(t28, t34, t35);
+			acc0 = vfmaq_f32(acc0, s, t36);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -1697,25 +2587,65 @@ EW_ATTRIBUTE_NEON void ew_ring_x2y5f_neon(
 /* integral of x^1 y^6; scheme matrix.
  * Cost per item: 31 mul or fma, 4 add; 1 accumulators, 12 values alive, depth 13. */
 EW_ATTRIBUTE_NEON void ew_ring_x1y6f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(y0, y0);
+			const float32x4_t t1 = vmulq_f32(t0, t0);
+			const float32x4_t t2 = vmulq_f32(y0, y1);
+			const float32x4_t t3 = vmulq_f32(t2, t1);
+			const float32x4_t t4 = vmulq_f32(t0, y0);
+			const float32x4_t t5 = vmulq_f32(t4, t4);
+			const float32x4_t t6 = vfmaq_f32(t5, vdupq_n_f32(2.0f), t3);
+			const float32x4_t t7 = vmulq_f32(t2, t2);
+			const float32x4_t t8 = vmulq_f32(t0, t7);
+			const float32x4_t t9 = vfmaq_f32(t6, vdupq_n_f32(3.0f), t8);
+			const float32x4_t t10 = vmulq_f32(t2, t7);
+			const float32x4_t t11 = vmulq_f32(vdupq_n_f32(4.0f), t10);
+			const float32x4_t t12 = vaddq_f32(t11, t9);
+			const float32x4_t t13 = vmulq_f32(y1, y1);
+			const float32x4_t t14 = vmulq_f32(t7, t13);
+			const float32x4_t t15 = vfmaq_f32(t12, vdupq_n_f32(5.0f), t14);
+			const float32x4_t t16 = vmulq_f32(t13, t13);
+			const float32x4_t t17 = vmulq_f32(t2, t16);
+			const float32x4_t t18 = vfmaq_f32(t15, vdupq_n_f32(6.0f), t17);
+			const float32x4_t t19 = vmulq_f32(t13, y1);
+			const float32x4_t t20 = vmulq_f32(t19, t19);
+			const float32x4_t t21 = vfmaq_f32(t18, vdupq_n_f32(7.0f), t20);
+			const float32x4_t t22 = vmulq_f32(vdupq_n_f32(7.0f), t5);
+			const float32x4_t t23 = vfmaq_f32(t22, vdupq_n_f32(6.0f), t3);
+			const float32x4_t t24 = vfmaq_f32(t23, vdupq_n_f32(5.0f), t8);
+			const float32x4_t t25 = vaddq_f32(t24, t11);
+			const float32x4_t t26 = vfmaq_f32(t25, vdupq_n_f32(3.0f), t14);
+			const float32x4_t t27 = vfmaq_f32(t26, vdupq_n_f32(2.0f), t17);
+			const float32x4_t t28 = vaddq_f32(t27, t20);
+			const float32x4_t t29 = vmulq_f32(t28, x0);
+			const float32x4_t t30 = vfmaq_f32(t29, t21, x1);
+			const float32x4_t t31 = vmulq_f32(x0, y1);
+			const float32x4_t t32 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t31, t32);
+			acc0 = vfmaq_f32(acc0, s, t30);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(y0, y0);
 			const float32x4_t t1 = vmulq_f32(t0, t0);
@@ -1760,25 +2690,47 @@ EW_ATTRIBUTE_NEON void ew_ring_x1y6f_neon(
 /* integral of x^0 y^7; scheme horner.
  * Cost per item: 15 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 9. */
 EW_ATTRIBUTE_NEON void ew_ring_x0y7f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t t2 = vaddq_f32(y0, y1);
+			const float32x4_t t3 = vmulq_f32(y1, y1);
+			const float32x4_t t4 = vfmaq_f32(t3, t2, y0);
+			const float32x4_t t5 = vmulq_f32(t3, y1);
+			const float32x4_t t6 = vfmaq_f32(t5, t4, y0);
+			const float32x4_t t7 = vmulq_f32(t5, y1);
+			const float32x4_t t8 = vfmaq_f32(t7, t6, y0);
+			const float32x4_t t9 = vmulq_f32(t7, y1);
+			const float32x4_t t10 = vfmaq_f32(t9, t8, y0);
+			const float32x4_t t11 = vmulq_f32(t9, y1);
+			const float32x4_t t12 = vfmaq_f32(t11, t10, y0);
+			const float32x4_t t13 = vmulq_f32(t12, y0);
+			const float32x4_t t14 = vfmaq_f32(t13, t11, y1);
+			acc0 = vfmaq_f32(acc0, s, t14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -1805,26 +2757,18 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y7f_neon(
 /* integral of x^8 y^0; scheme horner.
  * Cost per item: 17 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 10. */
 EW_ATTRIBUTE_NEON void ew_ring_x8y0f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
-			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
-			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const float32x4_t y1 = vld1q_f32(at_y1);
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
 			const float32x4_t s = vsubq_f32(t0, t1);
@@ -1845,640 +2789,36 @@ EW_ATTRIBUTE_NEON void ew_ring_x8y0f_neon(
 			const float32x4_t t16 = vfmaq_f32(t15, t13, x1);
 			acc0 = vfmaq_f32(acc0, s, t16);
 		}
-		vst1q_f32(sum + pass, acc0);
-	}
-}
-
-/* integral of x^7 y^1; scheme matrix.
- * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
-EW_ATTRIBUTE_NEON void ew_ring_x7y1f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
-		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const float32x4_t y1 = vld1q_f32(at_y1);
-			const float32x4_t t0 = vmulq_f32(x0, x0);
-			const float32x4_t t1 = vmulq_f32(t0, x0);
-			const float32x4_t t2 = vmulq_f32(t0, t1);
-			const float32x4_t t3 = vmulq_f32(x0, x1);
-			const float32x4_t t4 = vmulq_f32(t3, t2);
-			const float32x4_t t5 = vmulq_f32(t0, t0);
-			const float32x4_t t6 = vmulq_f32(t1, t5);
-			const float32x4_t t7 = vfmaq_f32(t6, vdupq_n_f32(2.0f), t4);
-			const float32x4_t t8 = vmulq_f32(t3, t3);
-			const float32x4_t t9 = vmulq_f32(t1, t8);
-			const float32x4_t t10 = vfmaq_f32(t7, vdupq_n_f32(3.0f), t9);
-			const float32x4_t t11 = vmulq_f32(t3, t8);
-			const float32x4_t t12 = vmulq_f32(t11, x0);
-			const float32x4_t t13 = vfmaq_f32(t10, vdupq_n_f32(4.0f), t12);
-			const float32x4_t t14 = vmulq_f32(t11, x1);
-			const float32x4_t t15 = vfmaq_f32(t13, vdupq_n_f32(5.0f), t14);
-			const float32x4_t t16 = vmulq_f32(x1, x1);
-			const float32x4_t t17 = vmulq_f32(t16, x1);
-			const float32x4_t t18 = vmulq_f32(t8, t17);
-			const float32x4_t t19 = vfmaq_f32(t15, vdupq_n_f32(6.0f), t18);
-			const float32x4_t t20 = vmulq_f32(t16, t17);
-			const float32x4_t t21 = vmulq_f32(t3, t20);
-			const float32x4_t t22 = vfmaq_f32(t19, vdupq_n_f32(7.0f), t21);
-			const float32x4_t t23 = vmulq_f32(t16, t16);
-			const float32x4_t t24 = vmulq_f32(t17, t23);
-			const float32x4_t t25 = vfmaq_f32(t22, vdupq_n_f32(8.0f), t24);
-			const float32x4_t t26 = vmulq_f32(vdupq_n_f32(8.0f), t6);
-			const float32x4_t t27 = vfmaq_f32(t26, vdupq_n_f32(7.0f), t4);
-			const float32x4_t t28 = vfmaq_f32(t27, vdupq_n_f32(6.0f), t9);
-			const float32x4_t t29 = vfmaq_f32(t28, vdupq_n_f32(5.0f), t12);
-			const float32x4_t t30 = vfmaq_f32(t29, vdupq_n_f32(4.0f), t14);
-			const float32x4_t t31 = vfmaq_f32(t30, vdupq_n_f32(3.0f), t18);
-			const float32x4_t t32 = vfmaq_f32(t31, vdupq_n_f32(2.0f), t21);
-			const float32x4_t t33 = vaddq_f32(t32, t24);
-			const float32x4_t t34 = vmulq_f32(t33, y0);
-			const float32x4_t t35 = vfmaq_f32(t34, t25, y1);
-			const float32x4_t t36 = vmulq_f32(x0, y1);
-			const float32x4_t t37 = vmulq_f32(x1, y0);
-			const float32x4_t s = vsubq_f32(t36, t37);
-			acc0 = vfmaq_f32(acc0, s, t35);
-		}
-		vst1q_f32(sum + pass, acc0);
-	}
-}
-
-/* integral of x^6 y^2; scheme matrix.
- * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
-EW_ATTRIBUTE_NEON void ew_ring_x6y2f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
-		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
-			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
-			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const float32x4_t y1 = vld1q_f32(at_y1);
-			const float32x4_t t0 = vmulq_f32(x0, x0);
-			const float32x4_t t1 = vmulq_f32(t0, t0);
-			const float32x4_t t2 = vmulq_f32(x0, x1);
-			const float32x4_t t3 = vmulq_f32(t2, t1);
-			const float32x4_t t4 = vmulq_f32(t0, x0);
-			const float32x4_t t5 = vmulq_f32(t4, t4);
-			const float32x4_t t6 = vmulq_f32(vdupq_n_f32(0x1.dddddep-2f /* 7/15 */),
-				t5);
-			const float32x4_t t7 = vfmaq_f32(t6, vdupq_n_f32(0x1.99999ap-1f /* 4/5 */),
-				t3);
-			const float32x4_t t8 = vmulq_f32(t2, t2);
-			const float32x4_t t9 = vmulq_f32(t0, t8);
-			const float32x4_t t10 = vaddq_f32(t9, t7);
-			const float32x4_t t11 = vmulq_f32(t2, t8);
-			const float32x4_t t12 = vfmaq_f32(t10,
-				vdupq_n_f32(0x1.111112p0f /* 16/15 */), t11);
-			const float32x4_t t13 = vmulq_f32(x1, x1);
-			const float32x4_t t14 = vmulq_f32(t8, t13);
-			const float32x4_t t15 = vaddq_f32(t14, t12);
-			const float32x4_t t16 = vmulq_f32(t13, t13);
-			const float32x4_t t17 = vmulq_f32(t2, t16);
-			const float32x4_t t18 = vfmaq_f32(t15,
-				vdupq_n_f32(0x1.99999ap-1f /* 4/5 */), t17);
-			const float32x4_t t19 = vmulq_f32(t13, x1);
-			const float32x4_t t20 = vmulq_f32(t19, t19);
-			const float32x4_t t21 = vfmaq_f32(t18,
-				vdupq_n_f32(0x1.dddddep-2f /* 7/15 */), t20);
-			const float32x4_t t22 = vmulq_f32(vdupq_n_f32(0x1.dddddep0f /* 28/15 */),
-				t5);
-			const float32x4_t t23 = vfmaq_f32(t22,
-				vdupq_n_f32(0x1.666666p0f /* 7/5 */), t3);
-			const float32x4_t t24 = vaddq_f32(t23, t9);
-			const float32x4_t t25 = vmulq_f32(vdupq_n_f32(0x1.555556p-1f /* 2/3 */),
-				t11);
-			const float32x4_t t26 = vaddq_f32(t24, t25);
-			const float32x4_t t27 = vfmaq_f32(t26,
-				vdupq_n_f32(0x1.99999ap-2f /* 2/5 */), t14);
-			const float32x4_t t28 = vfmaq_f32(t27,
-				vdupq_n_f32(0x1.99999ap-3f /* 1/5 */), t17);
-			const float32x4_t t29 = vfmaq_f32(t28,
-				vdupq_n_f32(0x1.111112p-4f /* 1/15 */), t20);
-			const float32x4_t t30 = vmulq_f32(y0, y0);
-			const float32x4_t t31 = vmulq_f32(t29, t30);
-			const float32x4_t t32 = vmulq_f32(y0, y1);
-			const float32x4_t t33 = vfmaq_f32(t31, t21, t32);
-			const float32x4_t t34 = vmulq_f32(vdupq_n_f32(0x1.111112p-4f /* 1/15 */),
-				t5);
-			const float32x4_t t35 = vfmaq_f32(t34,
-				vdupq_n_f32(0x1.99999ap-3f /* 1/5 */), t3);
-			const float32x4_t t36 = vfmaq_f32(t35,
-				vdupq_n_f32(0x1.99999ap-2f /* 2/5 */), t9);
-			const float32x4_t t37 = vaddq_f32(t25, t36);
-			const float32x4_t t38 = vaddq_f32(t14, t37);
-			const float32x4_t t39 = vfmaq_f32(t38,
-				vdupq_n_f32(0x1.666666p0f /* 7/5 */), t17);
-			const float32x4_t t40 = vfmaq_f32(t39,
-				vdupq_n_f32(0x1.dddddep0f /* 28/15 */), t20);
-			const float32x4_t t41 = vmulq_f32(y1, y1);
-			const float32x4_t t42 = vfmaq_f32(t33, t40, t41);
-			const float32x4_t t43 = vmulq_f32(x0, y1);
-			const float32x4_t t44 = vmulq_f32(x1, y0);
-			const float32x4_t s = vsubq_f32(t43, t44);
-			acc0 = vfmaq_f32(acc0, s, t42);
-		}
-		vst1q_f32(sum + pass, acc0);
-	}
-}
-
-/* integral of x^5 y^3; scheme matrix.
- * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
-EW_ATTRIBUTE_NEON void ew_ring_x5y3f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
-		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
-			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
-			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
 			const float32x4_t s = vsubq_f32(t0, t1);
-			const float32x4_t t2 = vmulq_f32(x0, x0);
-			const float32x4_t t3 = vmulq_f32(t2, x0);
-			const float32x4_t t4 = vmulq_f32(t2, t3);
-			const float32x4_t t5 = vmulq_f32(vdupq_n_f32(0x1.dddddep0f /* 28/15 */),
-				t4);
-			const float32x4_t t6 = vmulq_f32(x0, x1);
-			const float32x4_t t7 = vmulq_f32(t3, t6);
-			const float32x4_t t8 = vfmaq_f32(t5, vdupq_n_f32(0x1.2aaaaap0f /* 7/6 */),
-				t7);
-			const float32x4_t t9 = vmulq_f32(t6, t6);
-			const float32x4_t t10 = vmulq_f32(t9, x0);
-			const float32x4_t t11 = vfmaq_f32(t8,
-				vdupq_n_f32(0x1.555556p-1f /* 2/3 */), t10);
-			const float32x4_t t12 = vmulq_f32(t9, x1);
-			const float32x4_t t13 = vfmaq_f32(t11,
-				vdupq_n_f32(0x1.555556p-2f /* 1/3 */), t12);
-			const float32x4_t t14 = vmulq_f32(x1, x1);
-			const float32x4_t t15 = vmulq_f32(t14, x1);
-			const float32x4_t t16 = vmulq_f32(t6, t15);
-			const float32x4_t t17 = vfmaq_f32(t13,
-				vdupq_n_f32(0x1.111112p-3f /* 2/15 */), t16);
-			const float32x4_t t18 = vmulq_f32(t14, t15);
-			const float32x4_t t19 = vfmaq_f32(t17,
-				vdupq_n_f32(0x1.111112p-5f /* 1/30 */), t18);
-			const float32x4_t t20 = vmulq_f32(y0, y0);
-			const float32x4_t t21 = vmulq_f32(t20, y0);
-			const float32x4_t t22 = vmulq_f32(t19, t21);
-			const float32x4_t t23 = vfmaq_f32(t7,
-				vdupq_n_f32(0x1.666666p-1f /* 7/10 */), t4);
-			const float32x4_t t24 = vaddq_f32(t10, t23);
-			const float32x4_t t25 = vfmaq_f32(t24,
-				vdupq_n_f32(0x1.99999ap-1f /* 4/5 */), t12);
-			const float32x4_t t26 = vfmaq_f32(t25, vdupq_n_f32(0.5f), t16);
-			const float32x4_t t27 = vfmaq_f32(t26,
-				vdupq_n_f32(0x1.99999ap-3f /* 1/5 */), t18);
-			const float32x4_t t28 = vmulq_f32(y0, y1);
-			const float32x4_t t29 = vmulq_f32(t28, y0);
-			const float32x4_t t30 = vfmaq_f32(t22, t27, t29);
-			const float32x4_t t31 = vmulq_f32(vdupq_n_f32(0x1.99999ap-3f /* 1/5 */),
-				t4);
-			const float32x4_t t32 = vfmaq_f32(t31, vdupq_n_f32(0.5f), t7);
-			const float32x4_t t33 = vfmaq_f32(t32,
-				vdupq_n_f32(0x1.99999ap-1f /* 4/5 */), t10);
-			const float32x4_t t34 = vaddq_f32(t12, t33);
-			const float32x4_t t35 = vaddq_f32(t16, t34);
-			const float32x4_t t36 = vfmaq_f32(t35,
-				vdupq_n_f32(0x1.666666p-1f /* 7/10 */), t18);
-			const float32x4_t t37 = vmulq_f32(t28, y1);
-			const float32x4_t t38 = vfmaq_f32(t30, t36, t37);
-			const float32x4_t t39 = vmulq_f32(vdupq_n_f32(0x1.111112p-5f /* 1/30 */),
-				t4);
-			const float32x4_t t40 = vfmaq_f32(t39,
-				vdupq_n_f32(0x1.111112p-3f /* 2/15 */), t7);
-			const float32x4_t t41 = vfmaq_f32(t40,
-				vdupq_n_f32(0x1.555556p-2f /* 1/3 */), t10);
-			const float32x4_t t42 = vfmaq_f32(t41,
-				vdupq_n_f32(0x1.555556p-1f /* 2/3 */), t12);
-			const float32x4_t t43 = vfmaq_f32(t42,
-				vdupq_n_f32(0x1.2aaaaap0f /* 7/6 */), t16);
-			const float32x4_t t44 = vfmaq_f32(t43,
-				vdupq_n_f32(0x1.dddddep0f /* 28/15 */), t18);
-			const float32x4_t t45 = vmulq_f32(y1, y1);
-			const float32x4_t t46 = vmulq_f32(t45, y1);
-			const float32x4_t t47 = vfmaq_f32(t38, t44, t46);
-			acc0 = vfmaq_f32(acc0, s, t47);
-		}
-		vst1q_f32(sum + pass, acc0);
-	}
-}
-
-/* integral of x^4 y^4; scheme matrix.
- * Cost per item: 45 mul or fma, 6 add; 1 accumulators, 14 values alive, depth 13. */
-EW_ATTRIBUTE_NEON void ew_ring_x4y4f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
-		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
-			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
-			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const float32x4_t y1 = vld1q_f32(at_y1);
-			const float32x4_t t0 = vmulq_f32(x0, y1);
-			const float32x4_t t1 = vmulq_f32(x1, y0);
-			const float32x4_t s = vsubq_f32(t0, t1);
-			const float32x4_t t2 = vmulq_f32(y0, y0);
-			const float32x4_t t3 = vmulq_f32(t2, t2);
-			const float32x4_t t4 = vmulq_f32(vdupq_n_f32(70.0f), t3);
-			const float32x4_t t5 = vmulq_f32(y0, y1);
-			const float32x4_t t6 = vmulq_f32(t2, t5);
-			const float32x4_t t7 = vfmaq_f32(t4, vdupq_n_f32(35.0f), t6);
-			const float32x4_t t8 = vmulq_f32(t5, t5);
-			const float32x4_t t9 = vmulq_f32(vdupq_n_f32(15.0f), t8);
-			const float32x4_t t10 = vaddq_f32(t7, t9);
-			const float32x4_t t11 = vmulq_f32(y1, y1);
-			const float32x4_t t12 = vmulq_f32(t5, t11);
-			const float32x4_t t13 = vfmaq_f32(t10, vdupq_n_f32(5.0f), t12);
-			const float32x4_t t14 = vmulq_f32(t11, t11);
-			const float32x4_t t15 = vaddq_f32(t13, t14);
-			const float32x4_t t16 = vmulq_f32(x0, x0);
-			const float32x4_t t17 = vmulq_f32(t16, t16);
-			const float32x4_t t18 = vmulq_f32(t15, t17);
-			const float32x4_t t19 = vmulq_f32(vdupq_n_f32(35.0f), t3);
-			const float32x4_t t20 = vfmaq_f32(t19, vdupq_n_f32(40.0f), t6);
-			const float32x4_t t21 = vmulq_f32(vdupq_n_f32(30.0f), t8);
-			const float32x4_t t22 = vaddq_f32(t20, t21);
-			const float32x4_t t23 = vfmaq_f32(t22, vdupq_n_f32(16.0f), t12);
-			const float32x4_t t24 = vfmaq_f32(t23, vdupq_n_f32(5.0f), t14);
-			const float32x4_t t25 = vmulq_f32(x0, x1);
-			const float32x4_t t26 = vmulq_f32(t16, t25);
-			const float32x4_t t27 = vfmaq_f32(t18, t24, t26);
-			const float32x4_t t28 = vmulq_f32(vdupq_n_f32(15.0f), t3);
-			const float32x4_t t29 = vfmaq_f32(t28, vdupq_n_f32(30.0f), t6);
-			const float32x4_t t30 = vfmaq_f32(t29, vdupq_n_f32(36.0f), t8);
-			const float32x4_t t31 = vfmaq_f32(t30, vdupq_n_f32(30.0f), t12);
-			const float32x4_t t32 = vfmaq_f32(t31, vdupq_n_f32(15.0f), t14);
-			const float32x4_t t33 = vmulq_f32(t25, t25);
-			const float32x4_t t34 = vfmaq_f32(t27, t32, t33);
-			const float32x4_t t35 = vmulq_f32(vdupq_n_f32(5.0f), t3);
-			const float32x4_t t36 = vfmaq_f32(t35, vdupq_n_f32(16.0f), t6);
-			const float32x4_t t37 = vaddq_f32(t21, t36);
-			const float32x4_t t38 = vfmaq_f32(t37, vdupq_n_f32(40.0f), t12);
-			const float32x4_t t39 = vfmaq_f32(t38, vdupq_n_f32(35.0f), t14);
-			const float32x4_t t40 = vmulq_f32(x1, x1);
-			const float32x4_t t41 = vmulq_f32(t25, t40);
-			const float32x4_t t42 = vfmaq_f32(t34, t39, t41);
-			const float32x4_t t43 = vfmaq_f32(t3, vdupq_n_f32(5.0f), t6);
-			const float32x4_t t44 = vaddq_f32(t9, t43);
-			const float32x4_t t45 = vfmaq_f32(t44, vdupq_n_f32(35.0f), t12);
-			const float32x4_t t46 = vfmaq_f32(t45, vdupq_n_f32(70.0f), t14);
-			const float32x4_t t47 = vmulq_f32(t40, t40);
-			const float32x4_t t48 = vfmaq_f32(t42, t46, t47);
-			acc0 = vfmaq_f32(acc0, s, t48);
-		}
-		vst1q_f32(sum + pass, acc0);
-	}
-}
-
-/* integral of x^3 y^5; scheme matrix.
- * Cost per item: 46 mul or fma, 4 add; 1 accumulators, 13 values alive, depth 14. */
-EW_ATTRIBUTE_NEON void ew_ring_x3y5f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
-		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
-			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
-			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const float32x4_t y1 = vld1q_f32(at_y1);
-			const float32x4_t t0 = vmulq_f32(x0, y1);
-			const float32x4_t t1 = vmulq_f32(x1, y0);
-			const float32x4_t s = vsubq_f32(t0, t1);
-			const float32x4_t t2 = vmulq_f32(y0, y0);
-			const float32x4_t t3 = vmulq_f32(t2, y0);
-			const float32x4_t t4 = vmulq_f32(t2, t3);
-			const float32x4_t t5 = vmulq_f32(vdupq_n_f32(0x1.dddddep0f /* 28/15 */),
-				t4);
-			const float32x4_t t6 = vmulq_f32(y0, y1);
-			const float32x4_t t7 = vmulq_f32(t3, t6);
-			const float32x4_t t8 = vfmaq_f32(t5, vdupq_n_f32(0x1.2aaaaap0f /* 7/6 */),
-				t7);
-			const float32x4_t t9 = vmulq_f32(t6, t6);
-			const float32x4_t t10 = vmulq_f32(t9, y0);
-			const float32x4_t t11 = vfmaq_f32(t8,
-				vdupq_n_f32(0x1.555556p-1f /* 2/3 */), t10);
-			const float32x4_t t12 = vmulq_f32(t9, y1);
-			const float32x4_t t13 = vfmaq_f32(t11,
-				vdupq_n_f32(0x1.555556p-2f /* 1/3 */), t12);
-			const float32x4_t t14 = vmulq_f32(y1, y1);
-			const float32x4_t t15 = vmulq_f32(t14, y1);
-			const float32x4_t t16 = vmulq_f32(t6, t15);
-			const float32x4_t t17 = vfmaq_f32(t13,
-				vdupq_n_f32(0x1.111112p-3f /* 2/15 */), t16);
-			const float32x4_t t18 = vmulq_f32(t14, t15);
-			const float32x4_t t19 = vfmaq_f32(t17,
-				vdupq_n_f32(0x1.111112p-5f /* 1/30 */), t18);
-			const float32x4_t t20 = vmulq_f32(x0, x0);
-			const float32x4_t t21 = vmulq_f32(t20, x0);
-			const float32x4_t t22 = vmulq_f32(t19, t21);
-			const float32x4_t t23 = vfmaq_f32(t7,
-				vdupq_n_f32(0x1.666666p-1f /* 7/10 */), t4);
-			const float32x4_t t24 = vaddq_f32(t10, t23);
-			const float32x4_t t25 = vfmaq_f32(t24,
-				vdupq_n_f32(0x1.99999ap-1f /* 4/5 */), t12);
-			const float32x4_t t26 = vfmaq_f32(t25, vdupq_n_f32(0.5f), t16);
-			const float32x4_t t27 = vfmaq_f32(t26,
-				vdupq_n_f32(0x1.99999ap-3f /* 1/5 */), t18);
-			const float32x4_t t28 = vmulq_f32(x0, x1);
-			const float32x4_t t29 = vmulq_f32(t28, x0);
-			const float32x4_t t30 = vfmaq_f32(t22, t27, t29);
-			const float32x4_t t31 = vmulq_f32(vdupq_n_f32(0x1.99999ap-3f /* 1/5 */),
-				t4);
-			const float32x4_t t32 = vfmaq_f32(t31, vdupq_n_f32(0.5f), t7);
-			const float32x4_t t33 = vfmaq_f32(t32,
-				vdupq_n_f32(0x1.99999ap-1f /* 4/5 */), t10);
-			const float32x4_t t34 = vaddq_f32(t12, t33);
-			const float32x4_t t35 = vaddq_f32(t16, t34);
-			const float32x4_t t36 = vfmaq_f32(t35,
-				vdupq_n_f32(0x1.666666p-1f /* 7/10 */), t18);
-			const float32x4_t t37 = vmulq_f32(t28, x1);
-			const float32x4_t t38 = vfmaq_f32(t30, t36, t37);
-			const float32x4_t t39 = vmulq_f32(vdupq_n_f32(0x1.111112p-5f /* 1/30 */),
-				t4);
-			const float32x4_t t40 = vfmaq_f32(t39,
-				vdupq_n_f32(0x1.111112p-3f /* 2/15 */), t7);
-			const float32x4_t t41 = vfmaq_f32(t40,
-				vdupq_n_f32(0x1.555556p-2f /* 1/3 */), t10);
-			const float32x4_t t42 = vfmaq_f32(t41,
-				vdupq_n_f32(0x1.555556p-1f /* 2/3 */), t12);
-			const float32x4_t t43 = vfmaq_f32(t42,
-				vdupq_n_f32(0x1.2aaaaap0f /* 7/6 */), t16);
-			const float32x4_t t44 = vfmaq_f32(t43,
-				vdupq_n_f32(0x1.dddddep0f /* 28/15 */), t18);
-			const float32x4_t t45 = vmulq_f32(x1, x1);
-			const float32x4_t t46 = vmulq_f32(t45, x1);
-			const float32x4_t t47 = vfmaq_f32(t38, t44, t46);
-			acc0 = vfmaq_f32(acc0, s, t47);
-		}
-		vst1q_f32(sum + pass, acc0);
-	}
-}
-
-/* integral of x^2 y^6; scheme matrix.
- * Cost per item: 40 mul or fma, 7 add; 1 accumulators, 15 values alive, depth 14. */
-EW_ATTRIBUTE_NEON void ew_ring_x2y6f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
-		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
-			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
-			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const float32x4_t y1 = vld1q_f32(at_y1);
-			const float32x4_t t0 = vmulq_f32(y0, y0);
-			const float32x4_t t1 = vmulq_f32(t0, t0);
-			const float32x4_t t2 = vmulq_f32(y0, y1);
-			const float32x4_t t3 = vmulq_f32(t2, t1);
-			const float32x4_t t4 = vmulq_f32(t0, y0);
-			const float32x4_t t5 = vmulq_f32(t4, t4);
-			const float32x4_t t6 = vmulq_f32(vdupq_n_f32(0x1.dddddep-2f /* 7/15 */),
-				t5);
-			const float32x4_t t7 = vfmaq_f32(t6, vdupq_n_f32(0x1.99999ap-1f /* 4/5 */),
-				t3);
-			const float32x4_t t8 = vmulq_f32(t2, t2);
-			const float32x4_t t9 = vmulq_f32(t0, t8);
-			const float32x4_t t10 = vaddq_f32(t9, t7);
-			const float32x4_t t11 = vmulq_f32(t2, t8);
-			const float32x4_t t12 = vfmaq_f32(t10,
-				vdupq_n_f32(0x1.111112p0f /* 16/15 */), t11);
-			const float32x4_t t13 = vmulq_f32(y1, y1);
-			const float32x4_t t14 = vmulq_f32(t8, t13);
-			const float32x4_t t15 = vaddq_f32(t14, t12);
-			const float32x4_t t16 = vmulq_f32(t13, t13);
-			const float32x4_t t17 = vmulq_f32(t2, t16);
-			const float32x4_t t18 = vfmaq_f32(t15,
-				vdupq_n_f32(0x1.99999ap-1f /* 4/5 */), t17);
-			const float32x4_t t19 = vmulq_f32(t13, y1);
-			const float32x4_t t20 = vmulq_f32(t19, t19);
-			const float32x4_t t21 = vfmaq_f32(t18,
-				vdupq_n_f32(0x1.dddddep-2f /* 7/15 */), t20);
-			const float32x4_t t22 = vmulq_f32(vdupq_n_f32(0x1.dddddep0f /* 28/15 */),
-				t5);
-			const float32x4_t t23 = vfmaq_f32(t22,
-				vdupq_n_f32(0x1.666666p0f /* 7/5 */), t3);
-			const float32x4_t t24 = vaddq_f32(t23, t9);
-			const float32x4_t t25 = vmulq_f32(vdupq_n_f32(0x1.555556p-1f /* 2/3 */),
-				t11);
-			const float32x4_t t26 = vaddq_f32(t24, t25);
-			const float32x4_t t27 = vfmaq_f32(t26,
-				vdupq_n_f32(0x1.99999ap-2f /* 2/5 */), t14);
-			const float32x4_t t28 = vfmaq_f32(t27,
-				vdupq_n_f32(0x1.99999ap-3f /* 1/5 */), t17);
-			const float32x4_t t29 = vfmaq_f32(t28,
-				vdupq_n_f32(0x1.111112p-4f /* 1/15 */), t20);
-			const float32x4_t t30 = vmulq_f32(x0, x0);
-			const float32x4_t t31 = vmulq_f32(t29, t30);
-			const float32x4_t t32 = vmulq_f32(x0, x1);
-			const float32x4_t t33 = vfmaq_f32(t31, t21, t32);
-			const float32x4_t t34 = vmulq_f32(vdupq_n_f32(0x1.111112p-4f /* 1/15 */),
-				t5);
-			const float32x4_t t35 = vfmaq_f32(t34,
-				vdupq_n_f32(0x1.99999ap-3f /* 1/5 */), t3);
-			const float32x4_t t36 = vfmaq_f32(t35,
-				vdupq_n_f32(0x1.99999ap-2f /* 2/5 */), t9);
-			const float32x4_t t37 = vaddq_f32(t25, t36);
-			const float32x4_t t38 = vaddq_f32(t14, t37);
-			const float32x4_t t39 = vfmaq_f32(t38,
-				vdupq_n_f32(0x1.666666p0f /* 7/5 */), t17);
-			const float32x4_t t40 = vfmaq_f32(t39,
-				vdupq_n_f32(0x1.dddddep0f /* 28/15 */), t20);
-			const float32x4_t t41 = vmulq_f32(x1, x1);
-			const float32x4_t t42 = vfmaq_f32(t33, t40, t41);
-			const float32x4_t t43 = vmulq_f32(x0, y1);
-			const float32x4_t t44 = vmulq_f32(x1, y0);
-			const float32x4_t s = vsubq_f32(t43, t44);
-			acc0 = vfmaq_f32(acc0, s, t42);
-		}
-		vst1q_f32(sum + pass, acc0);
-	}
-}
-
-/* integral of x^1 y^7; scheme matrix.
- * Cost per item: 38 mul or fma, 2 add; 1 accumulators, 14 values alive, depth 14. */
-EW_ATTRIBUTE_NEON void ew_ring_x1y7f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
-		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
-			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
-			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const float32x4_t y1 = vld1q_f32(at_y1);
-			const float32x4_t t0 = vmulq_f32(y0, y0);
-			const float32x4_t t1 = vmulq_f32(t0, y0);
-			const float32x4_t t2 = vmulq_f32(t0, t1);
-			const float32x4_t t3 = vmulq_f32(y0, y1);
-			const float32x4_t t4 = vmulq_f32(t3, t2);
-			const float32x4_t t5 = vmulq_f32(t0, t0);
-			const float32x4_t t6 = vmulq_f32(t1, t5);
-			const float32x4_t t7 = vfmaq_f32(t6, vdupq_n_f32(2.0f), t4);
-			const float32x4_t t8 = vmulq_f32(t3, t3);
-			const float32x4_t t9 = vmulq_f32(t1, t8);
-			const float32x4_t t10 = vfmaq_f32(t7, vdupq_n_f32(3.0f), t9);
-			const float32x4_t t11 = vmulq_f32(t3, t8);
-			const float32x4_t t12 = vmulq_f32(t11, y0);
-			const float32x4_t t13 = vfmaq_f32(t10, vdupq_n_f32(4.0f), t12);
-			const float32x4_t t14 = vmulq_f32(t11, y1);
-			const float32x4_t t15 = vfmaq_f32(t13, vdupq_n_f32(5.0f), t14);
-			const float32x4_t t16 = vmulq_f32(y1, y1);
-			const float32x4_t t17 = vmulq_f32(t16, y1);
-			const float32x4_t t18 = vmulq_f32(t8, t17);
-			const float32x4_t t19 = vfmaq_f32(t15, vdupq_n_f32(6.0f), t18);
-			const float32x4_t t20 = vmulq_f32(t16, t17);
-			const float32x4_t t21 = vmulq_f32(t3, t20);
-			const float32x4_t t22 = vfmaq_f32(t19, vdupq_n_f32(7.0f), t21);
-			const float32x4_t t23 = vmulq_f32(t16, t16);
-			const float32x4_t t24 = vmulq_f32(t17, t23);
-			const float32x4_t t25 = vfmaq_f32(t22, vdupq_n_f32(8.0f), t24);
-			const float32x4_t t26 = vmulq_f32(vdupq_n_f32(8.0f), t6);
-			const float32x4_t t27 = vfmaq_f32(t26, vdupq_n_f32(7.0f), t4);
-			const float32x4_t t28 = vfmaq_f32(t27, vdupq_n_f32(6.0f), t9);
-			const float32x4_t t29 = vfmaq_f32(t28, vdupq_n_f32(5.0f), t12);
-			const float32x4_t t30 = vfmaq_f32(t29, vdupq_n_f32(4.0f), t14);
-			const float32x4_t t31 = vfmaq_f32(t30, vdupq_n_f32(3.0f), t18);
-			const float32x4_t t32 = vfmaq_f32(t31, vdupq_n_f32(2.0f), t21);
-			const float32x4_t t33 = vaddq_f32(t32, t24);
-			const float32x4_t t34 = vmulq_f32(t33, x0);
-			const float32x4_t t35 = vfmaq_f32(t34, t25, x1);
-			const float32x4_t t36 = vmulq_f32(x0, y1);
-			const float32x4_t t37 = vmulq_f32(x1, y0);
-			const float32x4_t s = vsubq_f32(t36, t37);
-			acc0 = vfmaq_f32(acc0, s, t35);
-		}
-		vst1q_f32(sum + pass, acc0);
-	}
-}
-
-/* integral of x^0 y^8; scheme horner.
- * Cost per item: 17 mul or fma, 2 add; 1 accumulators, 6 values alive, depth 10. */
-EW_ATTRIBUTE_NEON void ew_ring_x0y8f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
-{
-	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
-		float32x4_t acc0 = vld1q_f32(sum + pass);
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
-			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
-			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const float32x4_t y1 = vld1q_f32(at_y1);
-			const float32x4_t t0 = vmulq_f32(x0, y1);
-			const float32x4_t t1 = vmulq_f32(x1, y0);
-			const float32x4_t s = vsubq_f32(t0, t1);
-			const float32x4_t t2 = vaddq_f32(y0, y1);
-			const float32x4_t t3 = vmulq_f32(y1, y1);
-			const float32x4_t t4 = vfmaq_f32(t3, t2, y0);
-			const float32x4_t t5 = vmulq_f32(t3, y1);
-			const float32x4_t t6 = vfmaq_f32(t5, t4, y0);
-			const float32x4_t t7 = vmulq_f32(t5, y1);
-			const float32x4_t t8 = vfmaq_f32(t7, t6, y0);
-			const float32x4_t t9 = vmulq_f32(t7, y1);
-			const float32x4_t t10 = vfmaq_f32(t9, t8, y0);
-			const float32x4_t t11 = vmulq_f32(t9, y1);
-			const float32x4_t t12 = vfmaq_f32(t11, t10, y0);
-			const float32x4_t t13 = vmulq_f32(t11, y1);
-			const float32x4_t t14 = vfmaq_f32(t13, t12, y0);
-			const float32x4_t t15 = vmulq_f32(t14, y0);
-			const float32x4_t t16 = vfmaq_f32(t15, t13, y1);
+			const float32x4_t t2 = vaddq_f32(x0, x1);
+			const float32x4_t t3 = vmulq_f32(x1, x1);
+			const float32x4_t t4 = vfmaq_f32(t3, t2, x0);
+			const float32x4_t t5 = vmulq_f32(t3, x1);
+			const float32x4_t t6 = vfmaq_f32(t5, t4, x0);
+			const float32x4_t t7 = vmulq_f32(t5, x1);
+			const float32x4_t t8 = vfmaq_f32(t7, t6, x0);
+			const float32x4_t t9 = vmulq_f32(t7, x1);
+			const float32x4_t t10 = vfmaq_f32(t9, t8, x0);
+			const float32x4_t t11 = vmulq_f32(t9, x1);
+			const float32x4_t t12 = vfmaq_f32(t11, t10, x0);
+			const float32x4_t t13 = vmulq_f32(t11, x1);
+			const float32x4_t t14 = vfmaq_f32(t13, t12, x0);
+			const float32x4_t t15 = vmulq_f32(t14, x0);
+			const float32x4_t t16 = vfmaq_f32(t15, t13, x1);
 			acc0 = vfmaq_f32(acc0, s, t16);
 		}
 		vst1q_f32(sum + pass, acc0);

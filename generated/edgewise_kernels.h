@@ -9,9 +9,15 @@
 #define EDGEWISE_KERNELS_H
 
 #include <stddef.h>
+#include <float.h>
 
-#if defined(__FAST_MATH__) && !defined(EW_ALLOW_FAST_MATH)
+#ifndef EW_ALLOW_FAST_MATH
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST)
 #error "-ffast-math breaks the error bounds; define EW_ALLOW_FAST_MATH to accept that"
+#elif (defined(FLT_EVAL_METHOD) && (FLT_EVAL_METHOD < 0 || FLT_EVAL_METHOD == 2)) \
+	|| (defined(__TINYC__) && defined(__i386__))
+#error "wider arithmetic than the types say (x87) breaks the error bounds; use -msse2 -mfpmath=sse"
+#endif
 #endif
 
 /* a * b + c must not become one operation behind our back: it would break x0 y1 - x1 y0 == 0 on a
@@ -24,17 +30,46 @@
 #pragma fp_contract(off)
 #endif
 
+/* What compilers must not see through: that accumulators in memory could be in registers (they would spill),
+ * and that a vector could be loaded a second time instead of being kept. */
+#if defined(__GNUC__) || defined(__clang__)
+#define EW_HIDE(pointer) __asm__("" : "+r"(pointer))
+#define EW_KEEP(vector) __asm__("" : "+x"(vector))
+#else
+#define EW_HIDE(pointer) (void)0
+#define EW_KEEP(vector) (void)0
+#endif
+
 /* Which targets can this compiler build? The CPU is asked at run time. */
 #if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__)) && !defined(__TINYC__)
 #define EW_X86 1
 #define EW_ATTRIBUTE_FMA __attribute__((target("fma")))
 #define EW_ATTRIBUTE_AVX2 __attribute__((target("avx2,fma")))
-#define EW_ATTRIBUTE_AVX512 __attribute__((target("avx512f")))
+#define EW_ATTRIBUTE_AVX512 __attribute__((target("avx512f,fma")))
+#else      /* MSVC has every intrinsic without attributes */
+#if defined(_MSC_VER) && defined(_M_X64) && !defined(_M_ARM64EC)
+#define EW_X86 1
 #else
 #define EW_X86 0
-#define EW_ATTRIBUTE_FMA
 #endif
-#if defined(__aarch64__)
+#define EW_ATTRIBUTE_FMA
+#define EW_ATTRIBUTE_AVX2
+#define EW_ATTRIBUTE_AVX512
+#endif
+#if EW_X86 && defined(_MSC_VER) && defined(__clang__)
+/* There <immintrin.h> leaves out what no flag of the command line names. */
+#include <immintrin.h>
+#include <smmintrin.h>
+#include <avxintrin.h>
+#include <avx2intrin.h>
+#include <fmaintrin.h>
+#include <avx512fintrin.h>
+#endif
+#define EW_ABS_mm256_pd(a) _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)
+#define EW_ABS_mm256_ps(a) _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a)
+#define EW_ABS_mm512_pd(a) _mm512_abs_pd(a)
+#define EW_ABS_mm512_ps(a) _mm512_abs_ps(a)
+#if defined(__aarch64__) && !defined(__TINYC__)
 #define EW_ARM 1
 #define EW_ATTRIBUTE_NEON
 #else
@@ -158,6 +193,16 @@
 	X(EW_RING_MOMENTS_6, moments, 6, 0, 33, 28, 22, 2) \
 	X(EW_RING_MOMENTS_7, moments, 7, 0, 42, 36, 25, 2) \
 	X(EW_RING_MOMENTS_8, moments, 8, 0, 52, 45, 28, 2) \
+	X(EW_RING_MAGNITUDES_0, magnitudes, 0, 0, 2, 1, 5, 1) \
+	X(EW_RING_MAGNITUDES_1, magnitudes, 1, 0, 3, 3, 7, 2) \
+	X(EW_RING_MAGNITUDES_2, magnitudes, 2, 0, 7, 6, 10, 2) \
+	X(EW_RING_MAGNITUDES_3, magnitudes, 3, 0, 12, 10, 13, 2) \
+	X(EW_RING_MAGNITUDES_4, magnitudes, 4, 0, 18, 15, 16, 2) \
+	X(EW_RING_MAGNITUDES_5, magnitudes, 5, 0, 25, 21, 19, 2) \
+	X(EW_RING_MAGNITUDES_6, magnitudes, 6, 0, 33, 28, 22, 2) \
+	X(EW_RING_MAGNITUDES_7, magnitudes, 7, 0, 42, 36, 25, 2) \
+	X(EW_RING_MAGNITUDES_8, magnitudes, 8, 0, 52, 45, 28, 2) \
+	X(EW_RING_COMPENSATED, compensated, 0, 0, 2, 1, 0, 0) \
 	X(EW_RING_X0Y0, monomial, 0, 0, 2, 1, 5, 1) \
 	X(EW_RING_X1Y0, monomial, 1, 0, 1, 1, 7, 1) \
 	X(EW_RING_X0Y1, monomial, 0, 1, 1, 1, 7, 1) \
@@ -214,6 +259,16 @@ enum {
 	EW_RING_MOMENTS_6,
 	EW_RING_MOMENTS_7,
 	EW_RING_MOMENTS_8,
+	EW_RING_MAGNITUDES_0,
+	EW_RING_MAGNITUDES_1,
+	EW_RING_MAGNITUDES_2,
+	EW_RING_MAGNITUDES_3,
+	EW_RING_MAGNITUDES_4,
+	EW_RING_MAGNITUDES_5,
+	EW_RING_MAGNITUDES_6,
+	EW_RING_MAGNITUDES_7,
+	EW_RING_MAGNITUDES_8,
+	EW_RING_COMPENSATED,
 	EW_RING_X0Y0,
 	EW_RING_X1Y0,
 	EW_RING_X0Y1,
@@ -275,6 +330,16 @@ enum {
 	X(EW_RING_MOMENTS_6, 2, 1, 33, 28, ew_ring_moments_6_finish) \
 	X(EW_RING_MOMENTS_7, 2, 1, 42, 36, ew_ring_moments_7_finish) \
 	X(EW_RING_MOMENTS_8, 2, 1, 52, 45, ew_ring_moments_8_finish) \
+	X(EW_RING_MAGNITUDES_0, 3, 2, 2, 1, ew_ring_magnitudes_0_finish) \
+	X(EW_RING_MAGNITUDES_1, 2, 1, 3, 3, ew_ring_magnitudes_1_finish) \
+	X(EW_RING_MAGNITUDES_2, 2, 1, 7, 6, ew_ring_magnitudes_2_finish) \
+	X(EW_RING_MAGNITUDES_3, 2, 1, 12, 10, ew_ring_magnitudes_3_finish) \
+	X(EW_RING_MAGNITUDES_4, 2, 1, 18, 15, ew_ring_magnitudes_4_finish) \
+	X(EW_RING_MAGNITUDES_5, 2, 1, 25, 21, ew_ring_magnitudes_5_finish) \
+	X(EW_RING_MAGNITUDES_6, 2, 1, 33, 28, ew_ring_magnitudes_6_finish) \
+	X(EW_RING_MAGNITUDES_7, 2, 1, 42, 36, ew_ring_magnitudes_7_finish) \
+	X(EW_RING_MAGNITUDES_8, 2, 1, 52, 45, ew_ring_magnitudes_8_finish) \
+	X(EW_RING_COMPENSATED, 2, 1, 2, 1, ew_ring_compensated_finish) \
 	X(EW_RING_X0Y0, 3, 2, 2, 1, ew_ring_x0y0_finish) \
 	X(EW_RING_X1Y0, 2, 1, 1, 1, ew_ring_x1y0_finish) \
 	X(EW_RING_X0Y1, 2, 1, 1, 1, ew_ring_x0y1_finish) \
@@ -384,6 +449,16 @@ enum {
 	X(EW_RING_MOMENTS_6, ew_ring_moments_6_portable, 81, 71) \
 	X(EW_RING_MOMENTS_7, ew_ring_moments_7_portable, 108, 93) \
 	X(EW_RING_MOMENTS_8, ew_ring_moments_8_portable, 139, 118) \
+	X(EW_RING_MAGNITUDES_0, ew_ring_magnitudes_0_portable, 1, 3) \
+	X(EW_RING_MAGNITUDES_1, ew_ring_magnitudes_1_portable, 6, 6) \
+	X(EW_RING_MAGNITUDES_2, ew_ring_magnitudes_2_portable, 13, 13) \
+	X(EW_RING_MAGNITUDES_3, ew_ring_magnitudes_3_portable, 24, 23) \
+	X(EW_RING_MAGNITUDES_4, ew_ring_magnitudes_4_portable, 39, 36) \
+	X(EW_RING_MAGNITUDES_5, ew_ring_magnitudes_5_portable, 58, 52) \
+	X(EW_RING_MAGNITUDES_6, ew_ring_magnitudes_6_portable, 81, 71) \
+	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7_portable, 108, 93) \
+	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8_portable, 139, 118) \
+	X(EW_RING_COMPENSATED, ew_ring_compensated_portable, 14, 36) \
 	X(EW_RING_X0Y0, ew_ring_x0y0_portable, 1, 3) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_portable, 3, 3) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_portable, 3, 3) \
@@ -441,6 +516,16 @@ enum {
 	X(EW_RING_MOMENTS_6, ew_ring_moments_6_fma, 81, 22) \
 	X(EW_RING_MOMENTS_7, ew_ring_moments_7_fma, 108, 29) \
 	X(EW_RING_MOMENTS_8, ew_ring_moments_8_fma, 139, 37) \
+	X(EW_RING_MAGNITUDES_0, ew_ring_magnitudes_0_fma, 1, 2) \
+	X(EW_RING_MAGNITUDES_1, ew_ring_magnitudes_1_fma, 6, 1) \
+	X(EW_RING_MAGNITUDES_2, ew_ring_magnitudes_2_fma, 13, 3) \
+	X(EW_RING_MAGNITUDES_3, ew_ring_magnitudes_3_fma, 24, 6) \
+	X(EW_RING_MAGNITUDES_4, ew_ring_magnitudes_4_fma, 39, 10) \
+	X(EW_RING_MAGNITUDES_5, ew_ring_magnitudes_5_fma, 58, 15) \
+	X(EW_RING_MAGNITUDES_6, ew_ring_magnitudes_6_fma, 81, 21) \
+	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7_fma, 108, 28) \
+	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8_fma, 139, 36) \
+	X(EW_RING_COMPENSATED, ew_ring_compensated_fma, 4, 16) \
 	X(EW_RING_X0Y0, ew_ring_x0y0_fma, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_fma, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_fma, 3, 2) \
@@ -498,6 +583,16 @@ enum {
 	X(EW_RING_MOMENTS_6, ew_ring_moments_6_avx2, 81, 22) \
 	X(EW_RING_MOMENTS_7, ew_ring_moments_7_avx2, 108, 29) \
 	X(EW_RING_MOMENTS_8, ew_ring_moments_8_avx2, 139, 37) \
+	X(EW_RING_MAGNITUDES_0, ew_ring_magnitudes_0_avx2, 1, 2) \
+	X(EW_RING_MAGNITUDES_1, ew_ring_magnitudes_1_avx2, 6, 1) \
+	X(EW_RING_MAGNITUDES_2, ew_ring_magnitudes_2_avx2, 13, 3) \
+	X(EW_RING_MAGNITUDES_3, ew_ring_magnitudes_3_avx2, 24, 6) \
+	X(EW_RING_MAGNITUDES_4, ew_ring_magnitudes_4_avx2, 39, 10) \
+	X(EW_RING_MAGNITUDES_5, ew_ring_magnitudes_5_avx2, 58, 15) \
+	X(EW_RING_MAGNITUDES_6, ew_ring_magnitudes_6_avx2, 81, 21) \
+	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7_avx2, 108, 28) \
+	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8_avx2, 139, 36) \
+	X(EW_RING_COMPENSATED, ew_ring_compensated_avx2, 4, 16) \
 	X(EW_RING_X0Y0, ew_ring_x0y0_avx2, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_avx2, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_avx2, 3, 2) \
@@ -555,6 +650,16 @@ enum {
 	X(EW_RING_MOMENTS_6, ew_ring_moments_6_avx512, 81, 22) \
 	X(EW_RING_MOMENTS_7, ew_ring_moments_7_avx512, 108, 29) \
 	X(EW_RING_MOMENTS_8, ew_ring_moments_8_avx512, 139, 37) \
+	X(EW_RING_MAGNITUDES_0, ew_ring_magnitudes_0_avx512, 1, 2) \
+	X(EW_RING_MAGNITUDES_1, ew_ring_magnitudes_1_avx512, 6, 1) \
+	X(EW_RING_MAGNITUDES_2, ew_ring_magnitudes_2_avx512, 13, 3) \
+	X(EW_RING_MAGNITUDES_3, ew_ring_magnitudes_3_avx512, 24, 6) \
+	X(EW_RING_MAGNITUDES_4, ew_ring_magnitudes_4_avx512, 39, 10) \
+	X(EW_RING_MAGNITUDES_5, ew_ring_magnitudes_5_avx512, 58, 15) \
+	X(EW_RING_MAGNITUDES_6, ew_ring_magnitudes_6_avx512, 81, 21) \
+	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7_avx512, 108, 28) \
+	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8_avx512, 139, 36) \
+	X(EW_RING_COMPENSATED, ew_ring_compensated_avx512, 4, 16) \
 	X(EW_RING_X0Y0, ew_ring_x0y0_avx512, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_avx512, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_avx512, 3, 2) \
@@ -612,6 +717,16 @@ enum {
 	X(EW_RING_MOMENTS_6, ew_ring_moments_6_neon, 81, 22) \
 	X(EW_RING_MOMENTS_7, ew_ring_moments_7_neon, 108, 29) \
 	X(EW_RING_MOMENTS_8, ew_ring_moments_8_neon, 139, 37) \
+	X(EW_RING_MAGNITUDES_0, ew_ring_magnitudes_0_neon, 1, 2) \
+	X(EW_RING_MAGNITUDES_1, ew_ring_magnitudes_1_neon, 6, 1) \
+	X(EW_RING_MAGNITUDES_2, ew_ring_magnitudes_2_neon, 13, 3) \
+	X(EW_RING_MAGNITUDES_3, ew_ring_magnitudes_3_neon, 24, 6) \
+	X(EW_RING_MAGNITUDES_4, ew_ring_magnitudes_4_neon, 39, 10) \
+	X(EW_RING_MAGNITUDES_5, ew_ring_magnitudes_5_neon, 58, 15) \
+	X(EW_RING_MAGNITUDES_6, ew_ring_magnitudes_6_neon, 81, 21) \
+	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7_neon, 108, 28) \
+	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8_neon, 139, 36) \
+	X(EW_RING_COMPENSATED, ew_ring_compensated_neon, 4, 16) \
 	X(EW_RING_X0Y0, ew_ring_x0y0_neon, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_neon, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_neon, 3, 2) \
@@ -672,6 +787,16 @@ enum {
 	X(EW_RING_MOMENTS_6, ew_ring_moments_6f_portable, 81, 71) \
 	X(EW_RING_MOMENTS_7, ew_ring_moments_7f_portable, 108, 93) \
 	X(EW_RING_MOMENTS_8, ew_ring_moments_8f_portable, 139, 118) \
+	X(EW_RING_MAGNITUDES_0, ew_ring_magnitudes_0f_portable, 1, 3) \
+	X(EW_RING_MAGNITUDES_1, ew_ring_magnitudes_1f_portable, 6, 6) \
+	X(EW_RING_MAGNITUDES_2, ew_ring_magnitudes_2f_portable, 13, 13) \
+	X(EW_RING_MAGNITUDES_3, ew_ring_magnitudes_3f_portable, 24, 23) \
+	X(EW_RING_MAGNITUDES_4, ew_ring_magnitudes_4f_portable, 39, 36) \
+	X(EW_RING_MAGNITUDES_5, ew_ring_magnitudes_5f_portable, 58, 52) \
+	X(EW_RING_MAGNITUDES_6, ew_ring_magnitudes_6f_portable, 81, 71) \
+	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7f_portable, 108, 93) \
+	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8f_portable, 139, 118) \
+	X(EW_RING_COMPENSATED, ew_ring_compensatedf_portable, 14, 36) \
 	X(EW_RING_X0Y0, ew_ring_x0y0f_portable, 1, 3) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_portable, 3, 3) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_portable, 3, 3) \
@@ -729,6 +854,16 @@ enum {
 	X(EW_RING_MOMENTS_6, ew_ring_moments_6f_fma, 81, 22) \
 	X(EW_RING_MOMENTS_7, ew_ring_moments_7f_fma, 108, 29) \
 	X(EW_RING_MOMENTS_8, ew_ring_moments_8f_fma, 139, 37) \
+	X(EW_RING_MAGNITUDES_0, ew_ring_magnitudes_0f_fma, 1, 2) \
+	X(EW_RING_MAGNITUDES_1, ew_ring_magnitudes_1f_fma, 6, 1) \
+	X(EW_RING_MAGNITUDES_2, ew_ring_magnitudes_2f_fma, 13, 3) \
+	X(EW_RING_MAGNITUDES_3, ew_ring_magnitudes_3f_fma, 24, 6) \
+	X(EW_RING_MAGNITUDES_4, ew_ring_magnitudes_4f_fma, 39, 10) \
+	X(EW_RING_MAGNITUDES_5, ew_ring_magnitudes_5f_fma, 58, 15) \
+	X(EW_RING_MAGNITUDES_6, ew_ring_magnitudes_6f_fma, 81, 21) \
+	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7f_fma, 108, 28) \
+	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8f_fma, 139, 36) \
+	X(EW_RING_COMPENSATED, ew_ring_compensatedf_fma, 4, 16) \
 	X(EW_RING_X0Y0, ew_ring_x0y0f_fma, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_fma, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_fma, 3, 2) \
@@ -786,6 +921,16 @@ enum {
 	X(EW_RING_MOMENTS_6, ew_ring_moments_6f_avx2, 81, 22) \
 	X(EW_RING_MOMENTS_7, ew_ring_moments_7f_avx2, 108, 29) \
 	X(EW_RING_MOMENTS_8, ew_ring_moments_8f_avx2, 139, 37) \
+	X(EW_RING_MAGNITUDES_0, ew_ring_magnitudes_0f_avx2, 1, 2) \
+	X(EW_RING_MAGNITUDES_1, ew_ring_magnitudes_1f_avx2, 6, 1) \
+	X(EW_RING_MAGNITUDES_2, ew_ring_magnitudes_2f_avx2, 13, 3) \
+	X(EW_RING_MAGNITUDES_3, ew_ring_magnitudes_3f_avx2, 24, 6) \
+	X(EW_RING_MAGNITUDES_4, ew_ring_magnitudes_4f_avx2, 39, 10) \
+	X(EW_RING_MAGNITUDES_5, ew_ring_magnitudes_5f_avx2, 58, 15) \
+	X(EW_RING_MAGNITUDES_6, ew_ring_magnitudes_6f_avx2, 81, 21) \
+	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7f_avx2, 108, 28) \
+	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8f_avx2, 139, 36) \
+	X(EW_RING_COMPENSATED, ew_ring_compensatedf_avx2, 4, 16) \
 	X(EW_RING_X0Y0, ew_ring_x0y0f_avx2, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_avx2, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_avx2, 3, 2) \
@@ -843,6 +988,16 @@ enum {
 	X(EW_RING_MOMENTS_6, ew_ring_moments_6f_avx512, 81, 22) \
 	X(EW_RING_MOMENTS_7, ew_ring_moments_7f_avx512, 108, 29) \
 	X(EW_RING_MOMENTS_8, ew_ring_moments_8f_avx512, 139, 37) \
+	X(EW_RING_MAGNITUDES_0, ew_ring_magnitudes_0f_avx512, 1, 2) \
+	X(EW_RING_MAGNITUDES_1, ew_ring_magnitudes_1f_avx512, 6, 1) \
+	X(EW_RING_MAGNITUDES_2, ew_ring_magnitudes_2f_avx512, 13, 3) \
+	X(EW_RING_MAGNITUDES_3, ew_ring_magnitudes_3f_avx512, 24, 6) \
+	X(EW_RING_MAGNITUDES_4, ew_ring_magnitudes_4f_avx512, 39, 10) \
+	X(EW_RING_MAGNITUDES_5, ew_ring_magnitudes_5f_avx512, 58, 15) \
+	X(EW_RING_MAGNITUDES_6, ew_ring_magnitudes_6f_avx512, 81, 21) \
+	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7f_avx512, 108, 28) \
+	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8f_avx512, 139, 36) \
+	X(EW_RING_COMPENSATED, ew_ring_compensatedf_avx512, 4, 16) \
 	X(EW_RING_X0Y0, ew_ring_x0y0f_avx512, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_avx512, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_avx512, 3, 2) \
@@ -900,6 +1055,16 @@ enum {
 	X(EW_RING_MOMENTS_6, ew_ring_moments_6f_neon, 81, 22) \
 	X(EW_RING_MOMENTS_7, ew_ring_moments_7f_neon, 108, 29) \
 	X(EW_RING_MOMENTS_8, ew_ring_moments_8f_neon, 139, 37) \
+	X(EW_RING_MAGNITUDES_0, ew_ring_magnitudes_0f_neon, 1, 2) \
+	X(EW_RING_MAGNITUDES_1, ew_ring_magnitudes_1f_neon, 6, 1) \
+	X(EW_RING_MAGNITUDES_2, ew_ring_magnitudes_2f_neon, 13, 3) \
+	X(EW_RING_MAGNITUDES_3, ew_ring_magnitudes_3f_neon, 24, 6) \
+	X(EW_RING_MAGNITUDES_4, ew_ring_magnitudes_4f_neon, 39, 10) \
+	X(EW_RING_MAGNITUDES_5, ew_ring_magnitudes_5f_neon, 58, 15) \
+	X(EW_RING_MAGNITUDES_6, ew_ring_magnitudes_6f_neon, 81, 21) \
+	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7f_neon, 108, 28) \
+	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8f_neon, 139, 36) \
+	X(EW_RING_COMPENSATED, ew_ring_compensatedf_neon, 4, 16) \
 	X(EW_RING_X0Y0, ew_ring_x0y0f_neon, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_neon, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_neon, 3, 2) \
@@ -946,20 +1111,142 @@ enum {
 	X(EW_RING_X1Y7, ew_ring_x1y7f_neon, 38, 2) \
 	X(EW_RING_X0Y8, ew_ring_x0y8f_neon, 17, 2)
 
+/* X(k, r, products, wk, wr), for the moments to degree 0, 1, ...: k of each result, r and products
+ * per item, k and r of their magnitudes */
+#define EW_BOUNDS(X) \
+	X(ew_ring_moments_0_k, 1, 1, 5, 1) \
+	X(ew_ring_moments_1_k, 1, 4, 7, 2) \
+	X(ew_ring_moments_2_k, 1, 12, 10, 2) \
+	X(ew_ring_moments_3_k, 1, 18, 13, 2) \
+	X(ew_ring_moments_4_k, 1, 33, 16, 2) \
+	X(ew_ring_moments_5_k, 2, 58, 19, 2) \
+	X(ew_ring_moments_6_k, 2, 81, 22, 2) \
+	X(ew_ring_moments_7_k, 2, 108, 25, 2) \
+	X(ew_ring_moments_8_k, 2, 139, 28, 2)
+
+/* Items of batch kernels, see edgewise_sides_template.h */
+#define EW_SUMS_0 2
+#define EW_NEXT_0(item, k) item(qy, px, vy, cx, acc + (k) % 2 * 1)
+#define EW_SUMS_1 3
+#define EW_NEXT_1(item, k) item(px, py, vx, vy, cx, acc)
+#define EW_SUMS_2 6
+#define EW_NEXT_2(item, k) item(px, py, vx, vy, cx, acc)
+
+#if 1
+#define EW_TARGET_PORTABLE(X) X(PORTABLE, portable, 1)
+#else
+#define EW_TARGET_PORTABLE(X)
+#endif
+/* X(id, finish): portable */
+#define EW_FINISHES_PORTABLE(X) \
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0_finish) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1_finish) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2_finish) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3_finish) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4_finish) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5_finish) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6_finish) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7_finish) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8_finish)
+
+#if EW_BUILD_FMA
+#define EW_TARGET_FMA(X) X(FMA, fma, 1)
+#else
+#define EW_TARGET_FMA(X)
+#endif
+/* X(id, finish): fma */
+#define EW_FINISHES_FMA(X) \
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0_finish) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1_finish) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2_finish) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3_finish) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4_finish) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5_finish) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6_finish) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7_finish) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8_finish)
+
+#if EW_BUILD_AVX2
+#define EW_TARGET_AVX2(X) X(AVX2, avx2, 4)
+#else
+#define EW_TARGET_AVX2(X)
+#endif
+/* X(id, finish): avx2 */
+#define EW_FINISHES_AVX2(X) \
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0_finish_avx2) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1_finish_avx2) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2_finish_avx2) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3_finish_avx2) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4_finish_avx2) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5_finish_avx2) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6_finish_avx2) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7_finish_avx2) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8_finish_avx2)
+
+#if EW_BUILD_AVX512
+#define EW_TARGET_AVX512(X) X(AVX512, avx512, 8)
+#else
+#define EW_TARGET_AVX512(X)
+#endif
+/* X(id, finish): avx512 */
+#define EW_FINISHES_AVX512(X) \
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0_finish_avx512) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1_finish_avx512) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2_finish_avx512) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3_finish_avx512) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4_finish_avx512) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5_finish_avx512) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6_finish_avx512) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7_finish_avx512) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8_finish_avx512)
+
+#if EW_BUILD_NEON
+#define EW_TARGET_NEON(X) X(NEON, neon, 2)
+#else
+#define EW_TARGET_NEON(X)
+#endif
+/* X(id, finish): neon */
+#define EW_FINISHES_NEON(X) \
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0_finish_neon) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1_finish_neon) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2_finish_neon) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3_finish_neon) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4_finish_neon) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5_finish_neon) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6_finish_neon) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7_finish_neon) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8_finish_neon)
+
+/* X(TARGET, target, doubles): the targets that this compiler builds, and doubles in a register */
+#define EW_TARGETS(X) EW_TARGET_PORTABLE(X) EW_TARGET_FMA(X) EW_TARGET_AVX2(X) EW_TARGET_AVX512(X) EW_TARGET_NEON(X)
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* `count` items; cx is the abscissa of the local origin (vertex form only); added to
- * sum[accumulator * lanes + lane]. Results: finish(sums over all lanes, out). */
-typedef void ew_ring_run(const double *x, const double *y, double cx, size_t count, double *sum);
-typedef void ew_ring_runf(const float *x, const float *y, float cx, size_t count, float *sum);
+/* Items 0 .. count-1; item i reads vertices i, i + reach, ... (the window), and lane l < step takes items l,
+ * l + step, ... in order; added to sum[accumulator * L + lane], L = 8 double, 16 float.
+ * One ring: reach 1, step L. As many rings as a register has lanes, side by side: reach and step that many.
+ * With reach 1 and step 1 only lane 0 has a meaning. origin[lane]: abscissas of the local origins
+ * (vertex form only). Results: finish(sums over all lanes, out). */
+typedef void ew_ring_run(const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum);
+typedef void ew_ring_runf(const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum);
 /* pad = from[0 .. rest-1], then zeros. */
 static inline const double *ew_ring_pad(double *pad, const double *from, size_t rest, size_t width)
 {
 	for (size_t i = 0; i < width; ++i)
 		pad[i] = i < rest ? from[i] : 0;
 	return pad;
+}
+/* a b - p exactly, p = a b rounded (Dekker 1971); a and b below 2^996. */
+static inline double ew_ring_lost(double a, double b, double p)
+{
+	const double ta = 134217729.0 * a, tb = 134217729.0 * b;
+	const double ha = ta - (ta - a), hb = tb - (tb - b);
+	const double la = a - ha, lb = b - hb;
+	return ((ha * hb - p) + ha * lb + la * hb) + la * lb;
 }
 /* pad = from[0 .. rest-1], then zeros. */
 static inline const float *ew_ring_padf(float *pad, const float *from, size_t rest, size_t width)
@@ -968,10 +1255,23 @@ static inline const float *ew_ring_padf(float *pad, const float *from, size_t re
 		pad[i] = i < rest ? from[i] : 0;
 	return pad;
 }
-typedef void ew_ring_finish(const double *sum, double *out);
+/* a b - p exactly, p = a b rounded (Dekker 1971); a and b below 2^115. */
+static inline float ew_ring_lostf(float a, float b, float p)
+{
+	const float ta = 4097.0f * a, tb = 4097.0f * b;
+	const float ha = ta - (ta - a), hb = tb - (tb - b);
+	const float la = a - ha, lb = b - hb;
+	return ((ha * hb - p) + ha * lb + la * hb) + la * lb;
+}
+/* From sum[accumulator * stride] to out[output * stride]; those of a vector target take as many
+ * neighbours as a register holds. */
+typedef void ew_ring_finish(const double *sum, double *out, size_t stride);
 
 #define EW_DECLARE(id, window, turns, accumulators, outputs, finish) ew_ring_finish finish;
 EW_RINGS_SHAPES(EW_DECLARE)
+#undef EW_DECLARE
+#define EW_DECLARE(k, r, products, wk, wr) extern const short k[];
+EW_BOUNDS(EW_DECLARE)
 #undef EW_DECLARE
 #define EW_DECLARE(id, kernel, f, a) ew_ring_run kernel;
 EW_RINGS_PORTABLE_DOUBLE(EW_DECLARE)
@@ -1017,6 +1317,21 @@ EW_RINGS_AVX512_FLOAT(EW_DECLARE)
 #if EW_BUILD_NEON
 #define EW_DECLARE(id, kernel, f, a) ew_ring_runf kernel;
 EW_RINGS_NEON_FLOAT(EW_DECLARE)
+#undef EW_DECLARE
+#endif
+#if EW_BUILD_AVX2
+#define EW_DECLARE(id, finish) ew_ring_finish finish;
+EW_FINISHES_AVX2(EW_DECLARE)
+#undef EW_DECLARE
+#endif
+#if EW_BUILD_AVX512
+#define EW_DECLARE(id, finish) ew_ring_finish finish;
+EW_FINISHES_AVX512(EW_DECLARE)
+#undef EW_DECLARE
+#endif
+#if EW_BUILD_NEON
+#define EW_DECLARE(id, finish) ew_ring_finish finish;
+EW_FINISHES_NEON(EW_DECLARE)
 #undef EW_DECLARE
 #endif
 

@@ -16,40 +16,62 @@
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_0_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	const __m256d cx = _mm256_set1_pd(origin);
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
+		const __m256d cx = _mm256_loadu_pd(origin + pass);
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
 		__m256d acc1 = _mm256_loadu_pd(sum + 8 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + step + 3 < count; i += 2 * step) {
+			{
+				__m256d y0 = _mm256_loadu_pd(y + i);
+				EW_KEEP(y0);
+				__m256d x1 = _mm256_loadu_pd(x + i + reach);
+				EW_KEEP(x1);
+				__m256d y2 = _mm256_loadu_pd(y + i + 2 * reach);
+				EW_KEEP(y2);
+				const __m256d width = _mm256_sub_pd(x1, cx);
+				const __m256d height = _mm256_sub_pd(y2, y0);
+				acc0 = _mm256_fmadd_pd(width, height, acc0);
+			}
+			{
+				__m256d y0 = _mm256_loadu_pd(y + i + step);
+				EW_KEEP(y0);
+				__m256d x1 = _mm256_loadu_pd(x + i + step + reach);
+				EW_KEEP(x1);
+				__m256d y2 = _mm256_loadu_pd(y + i + step + 2 * reach);
+				EW_KEEP(y2);
+				const __m256d width = _mm256_sub_pd(x1, cx);
+				const __m256d height = _mm256_sub_pd(y2, y0);
+				acc1 = _mm256_fmadd_pd(width, height, acc1);
+			}
+		}
+		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
 				double pad[4][4];
-				const double *at_y0 = rest < 4
-					? ew_ring_pad(pad[0], y + i, rest, 4) : y + i;
+				int at = 0;
+				const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 				const __m256d y0 = _mm256_loadu_pd(at_y0);
-				const double *at_x1 = rest < 4
-					? ew_ring_pad(pad[1], x + i + 1, rest, 4) : x + i + 1;
+				const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 				const __m256d x1 = _mm256_loadu_pd(at_x1);
-				const double *at_y2 = rest < 4
-					? ew_ring_pad(pad[2], y + i + 2, rest, 4) : y + i + 2;
+				const double *at_y2 = ew_ring_pad(pad[at++], y + i + 2 * reach, rest, 4);
 				const __m256d y2 = _mm256_loadu_pd(at_y2);
 				const __m256d width = _mm256_sub_pd(x1, cx);
 				const __m256d height = _mm256_sub_pd(y2, y0);
 				acc0 = _mm256_fmadd_pd(width, height, acc0);
 			}
 			{
-				const size_t rest = count - i > 8 ? count - i - 8 : 0;
+				const size_t rest = count - i > step ? count - i - step : 0;
 				double pad[4][4];
-				const double *at_y0 = rest < 4
-					? ew_ring_pad(pad[0], y + i + 8, rest, 4) : y + i + 8;
+				int at = 0;
+				const double *at_y0 = ew_ring_pad(pad[at++], y + i + step, rest, 4);
 				const __m256d y0 = _mm256_loadu_pd(at_y0);
-				const double *at_x1 = rest < 4
-					? ew_ring_pad(pad[1], x + i + 9, rest, 4) : x + i + 9;
+				const double *at_x1 = ew_ring_pad(pad[at++], x + i + step + reach, rest, 4);
 				const __m256d x1 = _mm256_loadu_pd(at_x1);
-				const double *at_y2 = rest < 4
-					? ew_ring_pad(pad[2], y + i + 10, rest, 4) : y + i + 10;
+				const double *at_y2 = ew_ring_pad(pad[at++], y + i + step + 2 * reach, rest, 4);
 				const __m256d y2 = _mm256_loadu_pd(at_y2);
 				const __m256d width = _mm256_sub_pd(x1, cx);
 				const __m256d height = _mm256_sub_pd(y2, y0);
@@ -64,27 +86,44 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_0_avx2(
 /* all moments of x^m y^n, m + n <= 1; scheme even-power.
  * Cost per item: 4 mul or fma, 4 add; 3 accumulators, 7 values alive, depth 3. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_1_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
 		__m256d acc1 = _mm256_loadu_pd(sum + 8 + pass);
 		__m256d acc2 = _mm256_loadu_pd(sum + 16 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			acc0 = _mm256_add_pd(acc0, s);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			acc1 = _mm256_fmadd_pd(s, a, acc1);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			acc2 = _mm256_fmadd_pd(s, b, acc2);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -104,30 +143,57 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_1_avx2(
 /* all moments of x^m y^n, m + n <= 2; scheme shared.
  * Cost per item: 12 mul or fma, 6 add; 6 accumulators, 10 values alive, depth 4. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_2_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
 		__m256d acc1 = _mm256_loadu_pd(sum + 8 + pass);
 		__m256d acc2 = _mm256_loadu_pd(sum + 16 + pass);
 		__m256d acc3 = _mm256_loadu_pd(sum + 24 + pass);
 		__m256d acc4 = _mm256_loadu_pd(sum + 32 + pass);
 		__m256d acc5 = _mm256_loadu_pd(sum + 40 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			acc0 = _mm256_add_pd(acc0, s);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			acc1 = _mm256_fmadd_pd(s, a, acc1);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			acc2 = _mm256_fmadd_pd(s, b, acc2);
+			const __m256d t2 = _mm256_mul_pd(x1, x1);
+			const __m256d xx = _mm256_fmadd_pd(a, x0, t2);
+			acc3 = _mm256_fmadd_pd(s, xx, acc3);
+			const __m256d t3 = _mm256_add_pd(a, a);
+			const __m256d t4 = _mm256_add_pd(t0, t1);
+			const __m256d xy = _mm256_fmsub_pd(b, t3, t4);
+			acc4 = _mm256_fmadd_pd(s, xy, acc4);
+			const __m256d t5 = _mm256_mul_pd(y1, y1);
+			const __m256d yy = _mm256_fmadd_pd(b, y0, t5);
+			acc5 = _mm256_fmadd_pd(s, yy, acc5);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -160,10 +226,11 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_2_avx2(
 /* all moments of x^m y^n, m + n <= 3; scheme even-power.
  * Cost per item: 18 mul or fma, 14 add; 15 accumulators, 11 values alive, depth 6. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_3_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
 		__m256d acc1 = _mm256_loadu_pd(sum + 8 + pass);
 		__m256d acc2 = _mm256_loadu_pd(sum + 16 + pass);
@@ -179,20 +246,60 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_3_avx2(
 		__m256d acc12 = _mm256_loadu_pd(sum + 96 + pass);
 		__m256d acc13 = _mm256_loadu_pd(sum + 104 + pass);
 		__m256d acc14 = _mm256_loadu_pd(sum + 112 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			acc0 = _mm256_add_pd(acc0, s);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			const __m256d t2 = _mm256_mul_pd(s, a);
+			acc1 = _mm256_add_pd(acc1, t2);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			const __m256d t3 = _mm256_mul_pd(s, b);
+			acc2 = _mm256_add_pd(acc2, t3);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d t4 = _mm256_mul_pd(s, e);
+			const __m256d qxx = _mm256_mul_pd(e, t4);
+			const __m256d txx = _mm256_fmadd_pd(a, t2, qxx);
+			acc3 = _mm256_add_pd(acc3, txx);
+			acc4 = _mm256_add_pd(acc4, qxx);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d qxy = _mm256_mul_pd(f, t4);
+			const __m256d txy = _mm256_fmadd_pd(b, t2, qxy);
+			acc5 = _mm256_add_pd(acc5, txy);
+			acc6 = _mm256_add_pd(acc6, qxy);
+			const __m256d t5 = _mm256_mul_pd(s, f);
+			const __m256d qyy = _mm256_mul_pd(f, t5);
+			const __m256d tyy = _mm256_fmadd_pd(b, t3, qyy);
+			acc7 = _mm256_add_pd(acc7, tyy);
+			acc8 = _mm256_add_pd(acc8, qyy);
+			acc9 = _mm256_fmadd_pd(a, txx, acc9);
+			acc10 = _mm256_fmadd_pd(b, txx, acc10);
+			acc11 = _mm256_fmadd_pd(a, txy, acc11);
+			acc12 = _mm256_fmadd_pd(b, txy, acc12);
+			acc13 = _mm256_fmadd_pd(a, tyy, acc13);
+			acc14 = _mm256_fmadd_pd(b, tyy, acc14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -248,10 +355,11 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_3_avx2(
 /* all moments of x^m y^n, m + n <= 4; scheme even-power.
  * Cost per item: 33 mul or fma, 12 add; 26 accumulators, 15 values alive, depth 5. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_4_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
 		__m256d acc1 = _mm256_loadu_pd(sum + 8 + pass);
 		__m256d acc2 = _mm256_loadu_pd(sum + 16 + pass);
@@ -278,20 +386,73 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_4_avx2(
 		__m256d acc23 = _mm256_loadu_pd(sum + 184 + pass);
 		__m256d acc24 = _mm256_loadu_pd(sum + 192 + pass);
 		__m256d acc25 = _mm256_loadu_pd(sum + 200 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			acc0 = _mm256_add_pd(acc0, s);
+			const __m256d a = _mm256_add_pd(x0, x1);
+			acc1 = _mm256_fmadd_pd(s, a, acc1);
+			const __m256d b = _mm256_add_pd(y0, y1);
+			acc2 = _mm256_fmadd_pd(s, b, acc2);
+			const __m256d e = _mm256_sub_pd(x1, x0);
+			const __m256d ee = _mm256_mul_pd(e, e);
+			const __m256d rxx = _mm256_fmadd_pd(a, a, ee);
+			const __m256d txx = _mm256_mul_pd(s, rxx);
+			acc3 = _mm256_add_pd(acc3, txx);
+			const __m256d qxx = _mm256_mul_pd(s, ee);
+			acc4 = _mm256_add_pd(acc4, qxx);
+			const __m256d f = _mm256_sub_pd(y1, y0);
+			const __m256d ef = _mm256_mul_pd(e, f);
+			const __m256d rxy = _mm256_fmadd_pd(a, b, ef);
+			const __m256d txy = _mm256_mul_pd(s, rxy);
+			acc5 = _mm256_add_pd(acc5, txy);
+			const __m256d qxy = _mm256_mul_pd(s, ef);
+			acc6 = _mm256_add_pd(acc6, qxy);
+			const __m256d ff = _mm256_mul_pd(f, f);
+			const __m256d ryy = _mm256_fmadd_pd(b, b, ff);
+			const __m256d tyy = _mm256_mul_pd(s, ryy);
+			acc7 = _mm256_add_pd(acc7, tyy);
+			const __m256d qyy = _mm256_mul_pd(s, ff);
+			acc8 = _mm256_add_pd(acc8, qyy);
+			acc9 = _mm256_fmadd_pd(a, txx, acc9);
+			acc10 = _mm256_fmadd_pd(b, txx, acc10);
+			acc11 = _mm256_fmadd_pd(a, txy, acc11);
+			acc12 = _mm256_fmadd_pd(b, txy, acc12);
+			acc13 = _mm256_fmadd_pd(a, tyy, acc13);
+			acc14 = _mm256_fmadd_pd(b, tyy, acc14);
+			acc15 = _mm256_fmadd_pd(rxx, txx, acc15);
+			acc16 = _mm256_fmadd_pd(txx, rxy, acc16);
+			acc17 = _mm256_fmadd_pd(txx, ryy, acc17);
+			acc18 = _mm256_fmadd_pd(rxy, txy, acc18);
+			acc19 = _mm256_fmadd_pd(txy, ryy, acc19);
+			acc20 = _mm256_fmadd_pd(ryy, tyy, acc20);
+			acc21 = _mm256_fmadd_pd(ee, qxx, acc21);
+			acc22 = _mm256_fmadd_pd(qxx, ef, acc22);
+			acc23 = _mm256_fmadd_pd(qxx, ff, acc23);
+			acc24 = _mm256_fmadd_pd(qxy, ff, acc24);
+			acc25 = _mm256_fmadd_pd(ff, qyy, acc25);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -371,10 +532,11 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_4_avx2(
 /* all moments of x^m y^n, m + n <= 5; scheme recurrence.
  * Cost per item: 58 mul or fma, 16 add; 25 accumulators, 16 values alive, depth 13. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_5_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
 		__m256d acc1 = _mm256_loadu_pd(sum + 8 + pass);
 		__m256d acc2 = _mm256_loadu_pd(sum + 16 + pass);
@@ -400,20 +562,102 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_5_avx2(
 		__m256d acc22 = _mm256_loadu_pd(sum + 176 + pass);
 		__m256d acc23 = _mm256_loadu_pd(sum + 184 + pass);
 		__m256d acc24 = _mm256_loadu_pd(sum + 192 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			acc0 = _mm256_add_pd(acc0, s);
+			const __m256d w1_0 = _mm256_mul_pd(s, x1);
+			const __m256d h1_0 = _mm256_fmadd_pd(s, x0, w1_0);
+			acc1 = _mm256_add_pd(acc1, h1_0);
+			const __m256d w0_1 = _mm256_mul_pd(s, y1);
+			const __m256d h0_1 = _mm256_fmadd_pd(s, y0, w0_1);
+			acc2 = _mm256_add_pd(acc2, h0_1);
+			const __m256d w2_0 = _mm256_mul_pd(w1_0, x1);
+			const __m256d h2_0 = _mm256_fmadd_pd(h1_0, x0, w2_0);
+			acc3 = _mm256_add_pd(acc3, h2_0);
+			const __m256d w1_1 = _mm256_mul_pd(w0_1, x1);
+			const __m256d t2 = _mm256_mul_pd(_mm256_set1_pd(2.0), w1_1);
+			const __m256d t3 = _mm256_fmadd_pd(h1_0, y0, t2);
+			const __m256d h1_1 = _mm256_fmadd_pd(h0_1, x0, t3);
+			acc4 = _mm256_add_pd(acc4, h1_1);
+			const __m256d w0_2 = _mm256_mul_pd(w0_1, y1);
+			const __m256d h0_2 = _mm256_fmadd_pd(h0_1, y0, w0_2);
+			acc5 = _mm256_add_pd(acc5, h0_2);
+			const __m256d w3_0 = _mm256_mul_pd(w2_0, x1);
+			const __m256d h3_0 = _mm256_fmadd_pd(h2_0, x0, w3_0);
+			acc6 = _mm256_add_pd(acc6, h3_0);
+			const __m256d w2_1 = _mm256_mul_pd(w1_1, x1);
+			const __m256d t4 = _mm256_mul_pd(_mm256_set1_pd(3.0), w2_1);
+			const __m256d t5 = _mm256_fmadd_pd(h2_0, y0, t4);
+			const __m256d h2_1 = _mm256_fmadd_pd(h1_1, x0, t5);
+			acc7 = _mm256_add_pd(acc7, h2_1);
+			const __m256d w1_2 = _mm256_mul_pd(w0_2, x1);
+			const __m256d t6 = _mm256_mul_pd(_mm256_set1_pd(3.0), w1_2);
+			const __m256d t7 = _mm256_fmadd_pd(h1_1, y0, t6);
+			const __m256d h1_2 = _mm256_fmadd_pd(h0_2, x0, t7);
+			acc8 = _mm256_add_pd(acc8, h1_2);
+			const __m256d w0_3 = _mm256_mul_pd(w0_2, y1);
+			const __m256d h0_3 = _mm256_fmadd_pd(h0_2, y0, w0_3);
+			acc9 = _mm256_add_pd(acc9, h0_3);
+			const __m256d w4_0 = _mm256_mul_pd(w3_0, x1);
+			const __m256d h4_0 = _mm256_fmadd_pd(h3_0, x0, w4_0);
+			acc10 = _mm256_add_pd(acc10, h4_0);
+			const __m256d w3_1 = _mm256_mul_pd(w2_1, x1);
+			const __m256d t8 = _mm256_mul_pd(_mm256_set1_pd(4.0), w3_1);
+			const __m256d t9 = _mm256_fmadd_pd(h3_0, y0, t8);
+			const __m256d h3_1 = _mm256_fmadd_pd(h2_1, x0, t9);
+			acc11 = _mm256_add_pd(acc11, h3_1);
+			const __m256d w2_2 = _mm256_mul_pd(w1_2, x1);
+			const __m256d t10 = _mm256_mul_pd(_mm256_set1_pd(6.0), w2_2);
+			const __m256d t11 = _mm256_fmadd_pd(h2_1, y0, t10);
+			const __m256d h2_2 = _mm256_fmadd_pd(h1_2, x0, t11);
+			acc12 = _mm256_add_pd(acc12, h2_2);
+			const __m256d w1_3 = _mm256_mul_pd(w0_3, x1);
+			const __m256d t12 = _mm256_mul_pd(_mm256_set1_pd(4.0), w1_3);
+			const __m256d t13 = _mm256_fmadd_pd(h1_2, y0, t12);
+			const __m256d h1_3 = _mm256_fmadd_pd(h0_3, x0, t13);
+			acc13 = _mm256_add_pd(acc13, h1_3);
+			const __m256d w0_4 = _mm256_mul_pd(w0_3, y1);
+			const __m256d h0_4 = _mm256_fmadd_pd(h0_3, y0, w0_4);
+			acc14 = _mm256_add_pd(acc14, h0_4);
+			const __m256d t14 = _mm256_fmadd_pd(w4_0, x1, acc15);
+			acc15 = _mm256_fmadd_pd(h4_0, x0, t14);
+			const __m256d t15 = _mm256_fmadd_pd(h4_0, y0, acc16);
+			acc16 = _mm256_fmadd_pd(h3_1, x0, t15);
+			const __m256d t16 = _mm256_fmadd_pd(h3_1, y0, acc17);
+			acc17 = _mm256_fmadd_pd(h2_2, x0, t16);
+			const __m256d t17 = _mm256_fmadd_pd(h2_2, y0, acc18);
+			acc18 = _mm256_fmadd_pd(h1_3, x0, t17);
+			const __m256d t18 = _mm256_fmadd_pd(h1_3, y0, acc19);
+			acc19 = _mm256_fmadd_pd(h0_4, x0, t18);
+			const __m256d t19 = _mm256_fmadd_pd(w0_4, y1, acc20);
+			acc20 = _mm256_fmadd_pd(h0_4, y0, t19);
+			acc21 = _mm256_fmadd_pd(w3_1, x1, acc21);
+			acc22 = _mm256_fmadd_pd(w2_2, x1, acc22);
+			acc23 = _mm256_fmadd_pd(w1_3, x1, acc23);
+			acc24 = _mm256_fmadd_pd(w0_4, x1, acc24);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -521,10 +765,11 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_5_avx2(
 /* all moments of x^m y^n, m + n <= 6; scheme recurrence.
  * Cost per item: 81 mul or fma, 22 add; 33 accumulators, 18 values alive, depth 15. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_6_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
 		__m256d acc1 = _mm256_loadu_pd(sum + 8 + pass);
 		__m256d acc2 = _mm256_loadu_pd(sum + 16 + pass);
@@ -558,20 +803,131 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_6_avx2(
 		__m256d acc30 = _mm256_loadu_pd(sum + 240 + pass);
 		__m256d acc31 = _mm256_loadu_pd(sum + 248 + pass);
 		__m256d acc32 = _mm256_loadu_pd(sum + 256 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			acc0 = _mm256_add_pd(acc0, s);
+			const __m256d w1_0 = _mm256_mul_pd(s, x1);
+			const __m256d h1_0 = _mm256_fmadd_pd(s, x0, w1_0);
+			acc1 = _mm256_add_pd(acc1, h1_0);
+			const __m256d w0_1 = _mm256_mul_pd(s, y1);
+			const __m256d h0_1 = _mm256_fmadd_pd(s, y0, w0_1);
+			acc2 = _mm256_add_pd(acc2, h0_1);
+			const __m256d w2_0 = _mm256_mul_pd(w1_0, x1);
+			const __m256d h2_0 = _mm256_fmadd_pd(h1_0, x0, w2_0);
+			acc3 = _mm256_add_pd(acc3, h2_0);
+			const __m256d w1_1 = _mm256_mul_pd(w0_1, x1);
+			const __m256d t2 = _mm256_mul_pd(_mm256_set1_pd(2.0), w1_1);
+			const __m256d t3 = _mm256_fmadd_pd(h1_0, y0, t2);
+			const __m256d h1_1 = _mm256_fmadd_pd(h0_1, x0, t3);
+			acc4 = _mm256_add_pd(acc4, h1_1);
+			const __m256d w0_2 = _mm256_mul_pd(w0_1, y1);
+			const __m256d h0_2 = _mm256_fmadd_pd(h0_1, y0, w0_2);
+			acc5 = _mm256_add_pd(acc5, h0_2);
+			const __m256d w3_0 = _mm256_mul_pd(w2_0, x1);
+			const __m256d h3_0 = _mm256_fmadd_pd(h2_0, x0, w3_0);
+			acc6 = _mm256_add_pd(acc6, h3_0);
+			const __m256d w2_1 = _mm256_mul_pd(w1_1, x1);
+			const __m256d t4 = _mm256_mul_pd(_mm256_set1_pd(3.0), w2_1);
+			const __m256d t5 = _mm256_fmadd_pd(h2_0, y0, t4);
+			const __m256d h2_1 = _mm256_fmadd_pd(h1_1, x0, t5);
+			acc7 = _mm256_add_pd(acc7, h2_1);
+			const __m256d w1_2 = _mm256_mul_pd(w0_2, x1);
+			const __m256d t6 = _mm256_mul_pd(_mm256_set1_pd(3.0), w1_2);
+			const __m256d t7 = _mm256_fmadd_pd(h1_1, y0, t6);
+			const __m256d h1_2 = _mm256_fmadd_pd(h0_2, x0, t7);
+			acc8 = _mm256_add_pd(acc8, h1_2);
+			const __m256d w0_3 = _mm256_mul_pd(w0_2, y1);
+			const __m256d h0_3 = _mm256_fmadd_pd(h0_2, y0, w0_3);
+			acc9 = _mm256_add_pd(acc9, h0_3);
+			const __m256d w4_0 = _mm256_mul_pd(w3_0, x1);
+			const __m256d h4_0 = _mm256_fmadd_pd(h3_0, x0, w4_0);
+			acc10 = _mm256_add_pd(acc10, h4_0);
+			const __m256d w3_1 = _mm256_mul_pd(w2_1, x1);
+			const __m256d t8 = _mm256_mul_pd(_mm256_set1_pd(4.0), w3_1);
+			const __m256d t9 = _mm256_fmadd_pd(h3_0, y0, t8);
+			const __m256d h3_1 = _mm256_fmadd_pd(h2_1, x0, t9);
+			acc11 = _mm256_add_pd(acc11, h3_1);
+			const __m256d w2_2 = _mm256_mul_pd(w1_2, x1);
+			const __m256d t10 = _mm256_mul_pd(_mm256_set1_pd(6.0), w2_2);
+			const __m256d t11 = _mm256_fmadd_pd(h2_1, y0, t10);
+			const __m256d h2_2 = _mm256_fmadd_pd(h1_2, x0, t11);
+			acc12 = _mm256_add_pd(acc12, h2_2);
+			const __m256d w1_3 = _mm256_mul_pd(w0_3, x1);
+			const __m256d t12 = _mm256_mul_pd(_mm256_set1_pd(4.0), w1_3);
+			const __m256d t13 = _mm256_fmadd_pd(h1_2, y0, t12);
+			const __m256d h1_3 = _mm256_fmadd_pd(h0_3, x0, t13);
+			acc13 = _mm256_add_pd(acc13, h1_3);
+			const __m256d w0_4 = _mm256_mul_pd(w0_3, y1);
+			const __m256d h0_4 = _mm256_fmadd_pd(h0_3, y0, w0_4);
+			acc14 = _mm256_add_pd(acc14, h0_4);
+			const __m256d w5_0 = _mm256_mul_pd(w4_0, x1);
+			const __m256d h5_0 = _mm256_fmadd_pd(h4_0, x0, w5_0);
+			acc15 = _mm256_add_pd(acc15, h5_0);
+			const __m256d w4_1 = _mm256_mul_pd(w3_1, x1);
+			const __m256d t14 = _mm256_mul_pd(_mm256_set1_pd(5.0), w4_1);
+			const __m256d t15 = _mm256_fmadd_pd(h4_0, y0, t14);
+			const __m256d h4_1 = _mm256_fmadd_pd(h3_1, x0, t15);
+			acc16 = _mm256_add_pd(acc16, h4_1);
+			const __m256d w3_2 = _mm256_mul_pd(w2_2, x1);
+			const __m256d t16 = _mm256_mul_pd(_mm256_set1_pd(10.0), w3_2);
+			const __m256d t17 = _mm256_fmadd_pd(h3_1, y0, t16);
+			const __m256d h3_2 = _mm256_fmadd_pd(h2_2, x0, t17);
+			acc17 = _mm256_add_pd(acc17, h3_2);
+			const __m256d w2_3 = _mm256_mul_pd(w1_3, x1);
+			const __m256d t18 = _mm256_mul_pd(_mm256_set1_pd(10.0), w2_3);
+			const __m256d t19 = _mm256_fmadd_pd(h2_2, y0, t18);
+			const __m256d h2_3 = _mm256_fmadd_pd(h1_3, x0, t19);
+			acc18 = _mm256_add_pd(acc18, h2_3);
+			const __m256d w1_4 = _mm256_mul_pd(w0_4, x1);
+			const __m256d t20 = _mm256_mul_pd(_mm256_set1_pd(5.0), w1_4);
+			const __m256d t21 = _mm256_fmadd_pd(h1_3, y0, t20);
+			const __m256d h1_4 = _mm256_fmadd_pd(h0_4, x0, t21);
+			acc19 = _mm256_add_pd(acc19, h1_4);
+			const __m256d w0_5 = _mm256_mul_pd(w0_4, y1);
+			const __m256d h0_5 = _mm256_fmadd_pd(h0_4, y0, w0_5);
+			acc20 = _mm256_add_pd(acc20, h0_5);
+			const __m256d t22 = _mm256_fmadd_pd(w5_0, x1, acc21);
+			acc21 = _mm256_fmadd_pd(h5_0, x0, t22);
+			const __m256d t23 = _mm256_fmadd_pd(h5_0, y0, acc22);
+			acc22 = _mm256_fmadd_pd(h4_1, x0, t23);
+			const __m256d t24 = _mm256_fmadd_pd(h4_1, y0, acc23);
+			acc23 = _mm256_fmadd_pd(h3_2, x0, t24);
+			const __m256d t25 = _mm256_fmadd_pd(h3_2, y0, acc24);
+			acc24 = _mm256_fmadd_pd(h2_3, x0, t25);
+			const __m256d t26 = _mm256_fmadd_pd(h2_3, y0, acc25);
+			acc25 = _mm256_fmadd_pd(h1_4, x0, t26);
+			const __m256d t27 = _mm256_fmadd_pd(h1_4, y0, acc26);
+			acc26 = _mm256_fmadd_pd(h0_5, x0, t27);
+			const __m256d t28 = _mm256_fmadd_pd(w0_5, y1, acc27);
+			acc27 = _mm256_fmadd_pd(h0_5, y0, t28);
+			acc28 = _mm256_fmadd_pd(w4_1, x1, acc28);
+			acc29 = _mm256_fmadd_pd(w3_2, x1, acc29);
+			acc30 = _mm256_fmadd_pd(w2_3, x1, acc30);
+			acc31 = _mm256_fmadd_pd(w1_4, x1, acc31);
+			acc32 = _mm256_fmadd_pd(w0_5, x1, acc32);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -716,10 +1072,11 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_6_avx2(
 /* all moments of x^m y^n, m + n <= 7; scheme recurrence.
  * Cost per item: 108 mul or fma, 29 add; 42 accumulators, 20 values alive, depth 17. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_7_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
 		__m256d acc1 = _mm256_loadu_pd(sum + 8 + pass);
 		__m256d acc2 = _mm256_loadu_pd(sum + 16 + pass);
@@ -762,20 +1119,165 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_7_avx2(
 		__m256d acc39 = _mm256_loadu_pd(sum + 312 + pass);
 		__m256d acc40 = _mm256_loadu_pd(sum + 320 + pass);
 		__m256d acc41 = _mm256_loadu_pd(sum + 328 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			acc0 = _mm256_add_pd(acc0, s);
+			const __m256d w1_0 = _mm256_mul_pd(s, x1);
+			const __m256d h1_0 = _mm256_fmadd_pd(s, x0, w1_0);
+			acc1 = _mm256_add_pd(acc1, h1_0);
+			const __m256d w0_1 = _mm256_mul_pd(s, y1);
+			const __m256d h0_1 = _mm256_fmadd_pd(s, y0, w0_1);
+			acc2 = _mm256_add_pd(acc2, h0_1);
+			const __m256d w2_0 = _mm256_mul_pd(w1_0, x1);
+			const __m256d h2_0 = _mm256_fmadd_pd(h1_0, x0, w2_0);
+			acc3 = _mm256_add_pd(acc3, h2_0);
+			const __m256d w1_1 = _mm256_mul_pd(w0_1, x1);
+			const __m256d t2 = _mm256_mul_pd(_mm256_set1_pd(2.0), w1_1);
+			const __m256d t3 = _mm256_fmadd_pd(h1_0, y0, t2);
+			const __m256d h1_1 = _mm256_fmadd_pd(h0_1, x0, t3);
+			acc4 = _mm256_add_pd(acc4, h1_1);
+			const __m256d w0_2 = _mm256_mul_pd(w0_1, y1);
+			const __m256d h0_2 = _mm256_fmadd_pd(h0_1, y0, w0_2);
+			acc5 = _mm256_add_pd(acc5, h0_2);
+			const __m256d w3_0 = _mm256_mul_pd(w2_0, x1);
+			const __m256d h3_0 = _mm256_fmadd_pd(h2_0, x0, w3_0);
+			acc6 = _mm256_add_pd(acc6, h3_0);
+			const __m256d w2_1 = _mm256_mul_pd(w1_1, x1);
+			const __m256d t4 = _mm256_mul_pd(_mm256_set1_pd(3.0), w2_1);
+			const __m256d t5 = _mm256_fmadd_pd(h2_0, y0, t4);
+			const __m256d h2_1 = _mm256_fmadd_pd(h1_1, x0, t5);
+			acc7 = _mm256_add_pd(acc7, h2_1);
+			const __m256d w1_2 = _mm256_mul_pd(w0_2, x1);
+			const __m256d t6 = _mm256_mul_pd(_mm256_set1_pd(3.0), w1_2);
+			const __m256d t7 = _mm256_fmadd_pd(h1_1, y0, t6);
+			const __m256d h1_2 = _mm256_fmadd_pd(h0_2, x0, t7);
+			acc8 = _mm256_add_pd(acc8, h1_2);
+			const __m256d w0_3 = _mm256_mul_pd(w0_2, y1);
+			const __m256d h0_3 = _mm256_fmadd_pd(h0_2, y0, w0_3);
+			acc9 = _mm256_add_pd(acc9, h0_3);
+			const __m256d w4_0 = _mm256_mul_pd(w3_0, x1);
+			const __m256d h4_0 = _mm256_fmadd_pd(h3_0, x0, w4_0);
+			acc10 = _mm256_add_pd(acc10, h4_0);
+			const __m256d w3_1 = _mm256_mul_pd(w2_1, x1);
+			const __m256d t8 = _mm256_mul_pd(_mm256_set1_pd(4.0), w3_1);
+			const __m256d t9 = _mm256_fmadd_pd(h3_0, y0, t8);
+			const __m256d h3_1 = _mm256_fmadd_pd(h2_1, x0, t9);
+			acc11 = _mm256_add_pd(acc11, h3_1);
+			const __m256d w2_2 = _mm256_mul_pd(w1_2, x1);
+			const __m256d t10 = _mm256_mul_pd(_mm256_set1_pd(6.0), w2_2);
+			const __m256d t11 = _mm256_fmadd_pd(h2_1, y0, t10);
+			const __m256d h2_2 = _mm256_fmadd_pd(h1_2, x0, t11);
+			acc12 = _mm256_add_pd(acc12, h2_2);
+			const __m256d w1_3 = _mm256_mul_pd(w0_3, x1);
+			const __m256d t12 = _mm256_mul_pd(_mm256_set1_pd(4.0), w1_3);
+			const __m256d t13 = _mm256_fmadd_pd(h1_2, y0, t12);
+			const __m256d h1_3 = _mm256_fmadd_pd(h0_3, x0, t13);
+			acc13 = _mm256_add_pd(acc13, h1_3);
+			const __m256d w0_4 = _mm256_mul_pd(w0_3, y1);
+			const __m256d h0_4 = _mm256_fmadd_pd(h0_3, y0, w0_4);
+			acc14 = _mm256_add_pd(acc14, h0_4);
+			const __m256d w5_0 = _mm256_mul_pd(w4_0, x1);
+			const __m256d h5_0 = _mm256_fmadd_pd(h4_0, x0, w5_0);
+			acc15 = _mm256_add_pd(acc15, h5_0);
+			const __m256d w4_1 = _mm256_mul_pd(w3_1, x1);
+			const __m256d t14 = _mm256_mul_pd(_mm256_set1_pd(5.0), w4_1);
+			const __m256d t15 = _mm256_fmadd_pd(h4_0, y0, t14);
+			const __m256d h4_1 = _mm256_fmadd_pd(h3_1, x0, t15);
+			acc16 = _mm256_add_pd(acc16, h4_1);
+			const __m256d w3_2 = _mm256_mul_pd(w2_2, x1);
+			const __m256d t16 = _mm256_mul_pd(_mm256_set1_pd(10.0), w3_2);
+			const __m256d t17 = _mm256_fmadd_pd(h3_1, y0, t16);
+			const __m256d h3_2 = _mm256_fmadd_pd(h2_2, x0, t17);
+			acc17 = _mm256_add_pd(acc17, h3_2);
+			const __m256d w2_3 = _mm256_mul_pd(w1_3, x1);
+			const __m256d t18 = _mm256_mul_pd(_mm256_set1_pd(10.0), w2_3);
+			const __m256d t19 = _mm256_fmadd_pd(h2_2, y0, t18);
+			const __m256d h2_3 = _mm256_fmadd_pd(h1_3, x0, t19);
+			acc18 = _mm256_add_pd(acc18, h2_3);
+			const __m256d w1_4 = _mm256_mul_pd(w0_4, x1);
+			const __m256d t20 = _mm256_mul_pd(_mm256_set1_pd(5.0), w1_4);
+			const __m256d t21 = _mm256_fmadd_pd(h1_3, y0, t20);
+			const __m256d h1_4 = _mm256_fmadd_pd(h0_4, x0, t21);
+			acc19 = _mm256_add_pd(acc19, h1_4);
+			const __m256d w0_5 = _mm256_mul_pd(w0_4, y1);
+			const __m256d h0_5 = _mm256_fmadd_pd(h0_4, y0, w0_5);
+			acc20 = _mm256_add_pd(acc20, h0_5);
+			const __m256d w6_0 = _mm256_mul_pd(w5_0, x1);
+			const __m256d h6_0 = _mm256_fmadd_pd(h5_0, x0, w6_0);
+			acc21 = _mm256_add_pd(acc21, h6_0);
+			const __m256d w5_1 = _mm256_mul_pd(w4_1, x1);
+			const __m256d t22 = _mm256_mul_pd(_mm256_set1_pd(6.0), w5_1);
+			const __m256d t23 = _mm256_fmadd_pd(h5_0, y0, t22);
+			const __m256d h5_1 = _mm256_fmadd_pd(h4_1, x0, t23);
+			acc22 = _mm256_add_pd(acc22, h5_1);
+			const __m256d w4_2 = _mm256_mul_pd(w3_2, x1);
+			const __m256d t24 = _mm256_mul_pd(_mm256_set1_pd(15.0), w4_2);
+			const __m256d t25 = _mm256_fmadd_pd(h4_1, y0, t24);
+			const __m256d h4_2 = _mm256_fmadd_pd(h3_2, x0, t25);
+			acc23 = _mm256_add_pd(acc23, h4_2);
+			const __m256d w3_3 = _mm256_mul_pd(w2_3, x1);
+			const __m256d t26 = _mm256_mul_pd(_mm256_set1_pd(20.0), w3_3);
+			const __m256d t27 = _mm256_fmadd_pd(h3_2, y0, t26);
+			const __m256d h3_3 = _mm256_fmadd_pd(h2_3, x0, t27);
+			acc24 = _mm256_add_pd(acc24, h3_3);
+			const __m256d w2_4 = _mm256_mul_pd(w1_4, x1);
+			const __m256d t28 = _mm256_mul_pd(_mm256_set1_pd(15.0), w2_4);
+			const __m256d t29 = _mm256_fmadd_pd(h2_3, y0, t28);
+			const __m256d h2_4 = _mm256_fmadd_pd(h1_4, x0, t29);
+			acc25 = _mm256_add_pd(acc25, h2_4);
+			const __m256d w1_5 = _mm256_mul_pd(w0_5, x1);
+			const __m256d t30 = _mm256_mul_pd(_mm256_set1_pd(6.0), w1_5);
+			const __m256d t31 = _mm256_fmadd_pd(h1_4, y0, t30);
+			const __m256d h1_5 = _mm256_fmadd_pd(h0_5, x0, t31);
+			acc26 = _mm256_add_pd(acc26, h1_5);
+			const __m256d w0_6 = _mm256_mul_pd(w0_5, y1);
+			const __m256d h0_6 = _mm256_fmadd_pd(h0_5, y0, w0_6);
+			acc27 = _mm256_add_pd(acc27, h0_6);
+			const __m256d t32 = _mm256_fmadd_pd(w6_0, x1, acc28);
+			acc28 = _mm256_fmadd_pd(h6_0, x0, t32);
+			const __m256d t33 = _mm256_fmadd_pd(h6_0, y0, acc29);
+			acc29 = _mm256_fmadd_pd(h5_1, x0, t33);
+			const __m256d t34 = _mm256_fmadd_pd(h5_1, y0, acc30);
+			acc30 = _mm256_fmadd_pd(h4_2, x0, t34);
+			const __m256d t35 = _mm256_fmadd_pd(h4_2, y0, acc31);
+			acc31 = _mm256_fmadd_pd(h3_3, x0, t35);
+			const __m256d t36 = _mm256_fmadd_pd(h3_3, y0, acc32);
+			acc32 = _mm256_fmadd_pd(h2_4, x0, t36);
+			const __m256d t37 = _mm256_fmadd_pd(h2_4, y0, acc33);
+			acc33 = _mm256_fmadd_pd(h1_5, x0, t37);
+			const __m256d t38 = _mm256_fmadd_pd(h1_5, y0, acc34);
+			acc34 = _mm256_fmadd_pd(h0_6, x0, t38);
+			const __m256d t39 = _mm256_fmadd_pd(w0_6, y1, acc35);
+			acc35 = _mm256_fmadd_pd(h0_6, y0, t39);
+			acc36 = _mm256_fmadd_pd(w5_1, x1, acc36);
+			acc37 = _mm256_fmadd_pd(w4_2, x1, acc37);
+			acc38 = _mm256_fmadd_pd(w3_3, x1, acc38);
+			acc39 = _mm256_fmadd_pd(w2_4, x1, acc39);
+			acc40 = _mm256_fmadd_pd(w1_5, x1, acc40);
+			acc41 = _mm256_fmadd_pd(w0_6, x1, acc41);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);
@@ -963,10 +1465,11 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_7_avx2(
 /* all moments of x^m y^n, m + n <= 8; scheme recurrence.
  * Cost per item: 139 mul or fma, 37 add; 52 accumulators, 22 values alive, depth 19. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_8_avx2(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		__m256d acc0 = _mm256_loadu_pd(sum + pass);
 		__m256d acc1 = _mm256_loadu_pd(sum + 8 + pass);
 		__m256d acc2 = _mm256_loadu_pd(sum + 16 + pass);
@@ -1019,20 +1522,204 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_8_avx2(
 		__m256d acc49 = _mm256_loadu_pd(sum + 392 + pass);
 		__m256d acc50 = _mm256_loadu_pd(sum + 400 + pass);
 		__m256d acc51 = _mm256_loadu_pd(sum + 408 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			__m256d x0 = _mm256_loadu_pd(x + i);
+			EW_KEEP(x0);
+			__m256d y0 = _mm256_loadu_pd(y + i);
+			EW_KEEP(y0);
+			__m256d x1 = _mm256_loadu_pd(x + i + reach);
+			EW_KEEP(x1);
+			__m256d y1 = _mm256_loadu_pd(y + i + reach);
+			EW_KEEP(y1);
+			const __m256d t0 = _mm256_mul_pd(x0, y1);
+			const __m256d t1 = _mm256_mul_pd(x1, y0);
+			const __m256d s = _mm256_sub_pd(t0, t1);
+			acc0 = _mm256_add_pd(acc0, s);
+			const __m256d w1_0 = _mm256_mul_pd(s, x1);
+			const __m256d h1_0 = _mm256_fmadd_pd(s, x0, w1_0);
+			acc1 = _mm256_add_pd(acc1, h1_0);
+			const __m256d w0_1 = _mm256_mul_pd(s, y1);
+			const __m256d h0_1 = _mm256_fmadd_pd(s, y0, w0_1);
+			acc2 = _mm256_add_pd(acc2, h0_1);
+			const __m256d w2_0 = _mm256_mul_pd(w1_0, x1);
+			const __m256d h2_0 = _mm256_fmadd_pd(h1_0, x0, w2_0);
+			acc3 = _mm256_add_pd(acc3, h2_0);
+			const __m256d w1_1 = _mm256_mul_pd(w0_1, x1);
+			const __m256d t2 = _mm256_mul_pd(_mm256_set1_pd(2.0), w1_1);
+			const __m256d t3 = _mm256_fmadd_pd(h1_0, y0, t2);
+			const __m256d h1_1 = _mm256_fmadd_pd(h0_1, x0, t3);
+			acc4 = _mm256_add_pd(acc4, h1_1);
+			const __m256d w0_2 = _mm256_mul_pd(w0_1, y1);
+			const __m256d h0_2 = _mm256_fmadd_pd(h0_1, y0, w0_2);
+			acc5 = _mm256_add_pd(acc5, h0_2);
+			const __m256d w3_0 = _mm256_mul_pd(w2_0, x1);
+			const __m256d h3_0 = _mm256_fmadd_pd(h2_0, x0, w3_0);
+			acc6 = _mm256_add_pd(acc6, h3_0);
+			const __m256d w2_1 = _mm256_mul_pd(w1_1, x1);
+			const __m256d t4 = _mm256_mul_pd(_mm256_set1_pd(3.0), w2_1);
+			const __m256d t5 = _mm256_fmadd_pd(h2_0, y0, t4);
+			const __m256d h2_1 = _mm256_fmadd_pd(h1_1, x0, t5);
+			acc7 = _mm256_add_pd(acc7, h2_1);
+			const __m256d w1_2 = _mm256_mul_pd(w0_2, x1);
+			const __m256d t6 = _mm256_mul_pd(_mm256_set1_pd(3.0), w1_2);
+			const __m256d t7 = _mm256_fmadd_pd(h1_1, y0, t6);
+			const __m256d h1_2 = _mm256_fmadd_pd(h0_2, x0, t7);
+			acc8 = _mm256_add_pd(acc8, h1_2);
+			const __m256d w0_3 = _mm256_mul_pd(w0_2, y1);
+			const __m256d h0_3 = _mm256_fmadd_pd(h0_2, y0, w0_3);
+			acc9 = _mm256_add_pd(acc9, h0_3);
+			const __m256d w4_0 = _mm256_mul_pd(w3_0, x1);
+			const __m256d h4_0 = _mm256_fmadd_pd(h3_0, x0, w4_0);
+			acc10 = _mm256_add_pd(acc10, h4_0);
+			const __m256d w3_1 = _mm256_mul_pd(w2_1, x1);
+			const __m256d t8 = _mm256_mul_pd(_mm256_set1_pd(4.0), w3_1);
+			const __m256d t9 = _mm256_fmadd_pd(h3_0, y0, t8);
+			const __m256d h3_1 = _mm256_fmadd_pd(h2_1, x0, t9);
+			acc11 = _mm256_add_pd(acc11, h3_1);
+			const __m256d w2_2 = _mm256_mul_pd(w1_2, x1);
+			const __m256d t10 = _mm256_mul_pd(_mm256_set1_pd(6.0), w2_2);
+			const __m256d t11 = _mm256_fmadd_pd(h2_1, y0, t10);
+			const __m256d h2_2 = _mm256_fmadd_pd(h1_2, x0, t11);
+			acc12 = _mm256_add_pd(acc12, h2_2);
+			const __m256d w1_3 = _mm256_mul_pd(w0_3, x1);
+			const __m256d t12 = _mm256_mul_pd(_mm256_set1_pd(4.0), w1_3);
+			const __m256d t13 = _mm256_fmadd_pd(h1_2, y0, t12);
+			const __m256d h1_3 = _mm256_fmadd_pd(h0_3, x0, t13);
+			acc13 = _mm256_add_pd(acc13, h1_3);
+			const __m256d w0_4 = _mm256_mul_pd(w0_3, y1);
+			const __m256d h0_4 = _mm256_fmadd_pd(h0_3, y0, w0_4);
+			acc14 = _mm256_add_pd(acc14, h0_4);
+			const __m256d w5_0 = _mm256_mul_pd(w4_0, x1);
+			const __m256d h5_0 = _mm256_fmadd_pd(h4_0, x0, w5_0);
+			acc15 = _mm256_add_pd(acc15, h5_0);
+			const __m256d w4_1 = _mm256_mul_pd(w3_1, x1);
+			const __m256d t14 = _mm256_mul_pd(_mm256_set1_pd(5.0), w4_1);
+			const __m256d t15 = _mm256_fmadd_pd(h4_0, y0, t14);
+			const __m256d h4_1 = _mm256_fmadd_pd(h3_1, x0, t15);
+			acc16 = _mm256_add_pd(acc16, h4_1);
+			const __m256d w3_2 = _mm256_mul_pd(w2_2, x1);
+			const __m256d t16 = _mm256_mul_pd(_mm256_set1_pd(10.0), w3_2);
+			const __m256d t17 = _mm256_fmadd_pd(h3_1, y0, t16);
+			const __m256d h3_2 = _mm256_fmadd_pd(h2_2, x0, t17);
+			acc17 = _mm256_add_pd(acc17, h3_2);
+			const __m256d w2_3 = _mm256_mul_pd(w1_3, x1);
+			const __m256d t18 = _mm256_mul_pd(_mm256_set1_pd(10.0), w2_3);
+			const __m256d t19 = _mm256_fmadd_pd(h2_2, y0, t18);
+			const __m256d h2_3 = _mm256_fmadd_pd(h1_3, x0, t19);
+			acc18 = _mm256_add_pd(acc18, h2_3);
+			const __m256d w1_4 = _mm256_mul_pd(w0_4, x1);
+			const __m256d t20 = _mm256_mul_pd(_mm256_set1_pd(5.0), w1_4);
+			const __m256d t21 = _mm256_fmadd_pd(h1_3, y0, t20);
+			const __m256d h1_4 = _mm256_fmadd_pd(h0_4, x0, t21);
+			acc19 = _mm256_add_pd(acc19, h1_4);
+			const __m256d w0_5 = _mm256_mul_pd(w0_4, y1);
+			const __m256d h0_5 = _mm256_fmadd_pd(h0_4, y0, w0_5);
+			acc20 = _mm256_add_pd(acc20, h0_5);
+			const __m256d w6_0 = _mm256_mul_pd(w5_0, x1);
+			const __m256d h6_0 = _mm256_fmadd_pd(h5_0, x0, w6_0);
+			acc21 = _mm256_add_pd(acc21, h6_0);
+			const __m256d w5_1 = _mm256_mul_pd(w4_1, x1);
+			const __m256d t22 = _mm256_mul_pd(_mm256_set1_pd(6.0), w5_1);
+			const __m256d t23 = _mm256_fmadd_pd(h5_0, y0, t22);
+			const __m256d h5_1 = _mm256_fmadd_pd(h4_1, x0, t23);
+			acc22 = _mm256_add_pd(acc22, h5_1);
+			const __m256d w4_2 = _mm256_mul_pd(w3_2, x1);
+			const __m256d t24 = _mm256_mul_pd(_mm256_set1_pd(15.0), w4_2);
+			const __m256d t25 = _mm256_fmadd_pd(h4_1, y0, t24);
+			const __m256d h4_2 = _mm256_fmadd_pd(h3_2, x0, t25);
+			acc23 = _mm256_add_pd(acc23, h4_2);
+			const __m256d w3_3 = _mm256_mul_pd(w2_3, x1);
+			const __m256d t26 = _mm256_mul_pd(_mm256_set1_pd(20.0), w3_3);
+			const __m256d t27 = _mm256_fmadd_pd(h3_2, y0, t26);
+			const __m256d h3_3 = _mm256_fmadd_pd(h2_3, x0, t27);
+			acc24 = _mm256_add_pd(acc24, h3_3);
+			const __m256d w2_4 = _mm256_mul_pd(w1_4, x1);
+			const __m256d t28 = _mm256_mul_pd(_mm256_set1_pd(15.0), w2_4);
+			const __m256d t29 = _mm256_fmadd_pd(h2_3, y0, t28);
+			const __m256d h2_4 = _mm256_fmadd_pd(h1_4, x0, t29);
+			acc25 = _mm256_add_pd(acc25, h2_4);
+			const __m256d w1_5 = _mm256_mul_pd(w0_5, x1);
+			const __m256d t30 = _mm256_mul_pd(_mm256_set1_pd(6.0), w1_5);
+			const __m256d t31 = _mm256_fmadd_pd(h1_4, y0, t30);
+			const __m256d h1_5 = _mm256_fmadd_pd(h0_5, x0, t31);
+			acc26 = _mm256_add_pd(acc26, h1_5);
+			const __m256d w0_6 = _mm256_mul_pd(w0_5, y1);
+			const __m256d h0_6 = _mm256_fmadd_pd(h0_5, y0, w0_6);
+			acc27 = _mm256_add_pd(acc27, h0_6);
+			const __m256d w7_0 = _mm256_mul_pd(w6_0, x1);
+			const __m256d h7_0 = _mm256_fmadd_pd(h6_0, x0, w7_0);
+			acc28 = _mm256_add_pd(acc28, h7_0);
+			const __m256d w6_1 = _mm256_mul_pd(w5_1, x1);
+			const __m256d t32 = _mm256_mul_pd(_mm256_set1_pd(7.0), w6_1);
+			const __m256d t33 = _mm256_fmadd_pd(h6_0, y0, t32);
+			const __m256d h6_1 = _mm256_fmadd_pd(h5_1, x0, t33);
+			acc29 = _mm256_add_pd(acc29, h6_1);
+			const __m256d w5_2 = _mm256_mul_pd(w4_2, x1);
+			const __m256d t34 = _mm256_mul_pd(_mm256_set1_pd(21.0), w5_2);
+			const __m256d t35 = _mm256_fmadd_pd(h5_1, y0, t34);
+			const __m256d h5_2 = _mm256_fmadd_pd(h4_2, x0, t35);
+			acc30 = _mm256_add_pd(acc30, h5_2);
+			const __m256d w4_3 = _mm256_mul_pd(w3_3, x1);
+			const __m256d t36 = _mm256_mul_pd(_mm256_set1_pd(35.0), w4_3);
+			const __m256d t37 = _mm256_fmadd_pd(h4_2, y0, t36);
+			const __m256d h4_3 = _mm256_fmadd_pd(h3_3, x0, t37);
+			acc31 = _mm256_add_pd(acc31, h4_3);
+			const __m256d w3_4 = _mm256_mul_pd(w2_4, x1);
+			const __m256d t38 = _mm256_mul_pd(_mm256_set1_pd(35.0), w3_4);
+			const __m256d t39 = _mm256_fmadd_pd(h3_3, y0, t38);
+			const __m256d h3_4 = _mm256_fmadd_pd(h2_4, x0, t39);
+			acc32 = _mm256_add_pd(acc32, h3_4);
+			const __m256d w2_5 = _mm256_mul_pd(w1_5, x1);
+			const __m256d t40 = _mm256_mul_pd(_mm256_set1_pd(21.0), w2_5);
+			const __m256d t41 = _mm256_fmadd_pd(h2_4, y0, t40);
+			const __m256d h2_5 = _mm256_fmadd_pd(h1_5, x0, t41);
+			acc33 = _mm256_add_pd(acc33, h2_5);
+			const __m256d w1_6 = _mm256_mul_pd(w0_6, x1);
+			const __m256d t42 = _mm256_mul_pd(_mm256_set1_pd(7.0), w1_6);
+			const __m256d t43 = _mm256_fmadd_pd(h1_5, y0, t42);
+			const __m256d h1_6 = _mm256_fmadd_pd(h0_6, x0, t43);
+			acc34 = _mm256_add_pd(acc34, h1_6);
+			const __m256d w0_7 = _mm256_mul_pd(w0_6, y1);
+			const __m256d h0_7 = _mm256_fmadd_pd(h0_6, y0, w0_7);
+			acc35 = _mm256_add_pd(acc35, h0_7);
+			const __m256d t44 = _mm256_fmadd_pd(w7_0, x1, acc36);
+			acc36 = _mm256_fmadd_pd(h7_0, x0, t44);
+			const __m256d t45 = _mm256_fmadd_pd(h7_0, y0, acc37);
+			acc37 = _mm256_fmadd_pd(h6_1, x0, t45);
+			const __m256d t46 = _mm256_fmadd_pd(h6_1, y0, acc38);
+			acc38 = _mm256_fmadd_pd(h5_2, x0, t46);
+			const __m256d t47 = _mm256_fmadd_pd(h5_2, y0, acc39);
+			acc39 = _mm256_fmadd_pd(h4_3, x0, t47);
+			const __m256d t48 = _mm256_fmadd_pd(h4_3, y0, acc40);
+			acc40 = _mm256_fmadd_pd(h3_4, x0, t48);
+			const __m256d t49 = _mm256_fmadd_pd(h3_4, y0, acc41);
+			acc41 = _mm256_fmadd_pd(h2_5, x0, t49);
+			const __m256d t50 = _mm256_fmadd_pd(h2_5, y0, acc42);
+			acc42 = _mm256_fmadd_pd(h1_6, x0, t50);
+			const __m256d t51 = _mm256_fmadd_pd(h1_6, y0, acc43);
+			acc43 = _mm256_fmadd_pd(h0_7, x0, t51);
+			const __m256d t52 = _mm256_fmadd_pd(w0_7, y1, acc44);
+			acc44 = _mm256_fmadd_pd(h0_7, y0, t52);
+			acc45 = _mm256_fmadd_pd(w6_1, x1, acc45);
+			acc46 = _mm256_fmadd_pd(w5_2, x1, acc46);
+			acc47 = _mm256_fmadd_pd(w4_3, x1, acc47);
+			acc48 = _mm256_fmadd_pd(w3_4, x1, acc48);
+			acc49 = _mm256_fmadd_pd(w2_5, x1, acc49);
+			acc50 = _mm256_fmadd_pd(w1_6, x1, acc50);
+			acc51 = _mm256_fmadd_pd(w0_7, x1, acc51);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][4];
-			const double *at_x0 = rest < 4
-				? ew_ring_pad(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 4);
 			const __m256d x0 = _mm256_loadu_pd(at_x0);
-			const double *at_y0 = rest < 4
-				? ew_ring_pad(pad[1], y + i, rest, 4) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 			const __m256d y0 = _mm256_loadu_pd(at_y0);
-			const double *at_x1 = rest < 4
-				? ew_ring_pad(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 4);
 			const __m256d x1 = _mm256_loadu_pd(at_x1);
-			const double *at_y1 = rest < 4
-				? ew_ring_pad(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 4);
 			const __m256d y1 = _mm256_loadu_pd(at_y1);
 			const __m256d t0 = _mm256_mul_pd(x0, y1);
 			const __m256d t1 = _mm256_mul_pd(x1, y0);

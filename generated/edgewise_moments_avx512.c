@@ -16,72 +16,79 @@
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_0_avx512(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	const __m512d cx = _mm512_set1_pd(origin);
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
+		const __m512d cx = _mm512_loadu_pd(origin + pass);
 		__m512d acc0 = _mm512_loadu_pd(sum + pass);
 		__m512d acc1 = _mm512_loadu_pd(sum + 8 + pass);
-		size_t next = 0;
-		if (next + 24 < count + 3) {
+		size_t i = pass;
+		if (reach == 1 && step == 8 && i + 24 < count + 3) {
 			__m512d xa = _mm512_loadu_pd(x);
 			__m512d ya = _mm512_loadu_pd(y);
-			for (; next + 24 < count + 3; next += 16) {
+			for (; i + 24 < count + 3; i += 16) {
 				{
-					const __m512d xb = _mm512_loadu_pd(x + next + 8);
-					const __m512d yb = _mm512_loadu_pd(y + next + 8);
-				const __m512d y0 = ya;
-				const __m512d x1 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(xb), _mm512_castpd_si512(xa), 1));
-				const __m512d y2 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(yb), _mm512_castpd_si512(ya), 2));
-				const __m512d width = _mm512_sub_pd(x1, cx);
-				const __m512d height = _mm512_sub_pd(y2, y0);
-				acc0 = _mm512_fmadd_pd(width, height, acc0);
+					const __m512d xb = _mm512_loadu_pd(x + i + 8);
+					const __m512d yb = _mm512_loadu_pd(y + i + 8);
+					const __m512d y0 = ya;
+					const __m512d x1 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(xb), _mm512_castpd_si512(xa), 1));
+					const __m512d y2 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(yb), _mm512_castpd_si512(ya), 2));
+					const __m512d width = _mm512_sub_pd(x1, cx);
+					const __m512d height = _mm512_sub_pd(y2, y0);
+					acc0 = _mm512_fmadd_pd(width, height, acc0);
 					xa = xb;
 					ya = yb;
 				}
 				{
-					const __m512d xb = _mm512_loadu_pd(x + next + 16);
-					const __m512d yb = _mm512_loadu_pd(y + next + 16);
-				const __m512d y0 = ya;
-				const __m512d x1 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(xb), _mm512_castpd_si512(xa), 1));
-				const __m512d y2 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(yb), _mm512_castpd_si512(ya), 2));
-				const __m512d width = _mm512_sub_pd(x1, cx);
-				const __m512d height = _mm512_sub_pd(y2, y0);
-				acc1 = _mm512_fmadd_pd(width, height, acc1);
+					const __m512d xb = _mm512_loadu_pd(x + i + 16);
+					const __m512d yb = _mm512_loadu_pd(y + i + 16);
+					const __m512d y0 = ya;
+					const __m512d x1 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(xb), _mm512_castpd_si512(xa), 1));
+					const __m512d y2 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(yb), _mm512_castpd_si512(ya), 2));
+					const __m512d width = _mm512_sub_pd(x1, cx);
+					const __m512d height = _mm512_sub_pd(y2, y0);
+					acc1 = _mm512_fmadd_pd(width, height, acc1);
 					xa = xb;
 					ya = yb;
 				}
 			}
 		}
-		for (size_t i = next; i < count; i += 16) {
+		for (; i + step + 7 < count; i += 2 * step) {
 			{
-				const size_t rest = count - i;
-				double pad[4][8];
-				const double *at_y0 = rest < 8
-					? ew_ring_pad(pad[0], y + i, rest, 8) : y + i;
-				const __m512d y0 = _mm512_loadu_pd(at_y0);
-				const double *at_x1 = rest < 8
-					? ew_ring_pad(pad[1], x + i + 1, rest, 8) : x + i + 1;
-				const __m512d x1 = _mm512_loadu_pd(at_x1);
-				const double *at_y2 = rest < 8
-					? ew_ring_pad(pad[2], y + i + 2, rest, 8) : y + i + 2;
-				const __m512d y2 = _mm512_loadu_pd(at_y2);
+				const __m512d y0 = _mm512_loadu_pd(y + i);
+				const __m512d x1 = _mm512_loadu_pd(x + i + reach);
+				const __m512d y2 = _mm512_loadu_pd(y + i + 2 * reach);
 				const __m512d width = _mm512_sub_pd(x1, cx);
 				const __m512d height = _mm512_sub_pd(y2, y0);
 				acc0 = _mm512_fmadd_pd(width, height, acc0);
 			}
 			{
-				const size_t rest = count - i > 8 ? count - i - 8 : 0;
-				double pad[4][8];
-				const double *at_y0 = rest < 8
-					? ew_ring_pad(pad[0], y + i + 8, rest, 8) : y + i + 8;
-				const __m512d y0 = _mm512_loadu_pd(at_y0);
-				const double *at_x1 = rest < 8
-					? ew_ring_pad(pad[1], x + i + 9, rest, 8) : x + i + 9;
-				const __m512d x1 = _mm512_loadu_pd(at_x1);
-				const double *at_y2 = rest < 8
-					? ew_ring_pad(pad[2], y + i + 10, rest, 8) : y + i + 10;
-				const __m512d y2 = _mm512_loadu_pd(at_y2);
+				const __m512d y0 = _mm512_loadu_pd(y + i + step);
+				const __m512d x1 = _mm512_loadu_pd(x + i + step + reach);
+				const __m512d y2 = _mm512_loadu_pd(y + i + step + 2 * reach);
+				const __m512d width = _mm512_sub_pd(x1, cx);
+				const __m512d height = _mm512_sub_pd(y2, y0);
+				acc1 = _mm512_fmadd_pd(width, height, acc1);
+			}
+		}
+		for (; i < count; i += 2 * step) {
+			{
+				const size_t rest = count - i;
+				const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+				const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
+				const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
+				const __m512d y2 = _mm512_maskz_loadu_pd(mask, y + i + 2 * reach);
+				const __m512d width = _mm512_sub_pd(x1, cx);
+				const __m512d height = _mm512_sub_pd(y2, y0);
+				acc0 = _mm512_fmadd_pd(width, height, acc0);
+			}
+			{
+				const size_t rest = count - i > step ? count - i - step : 0;
+				const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+				const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i + step);
+				const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + step + reach);
+				const __m512d y2 = _mm512_maskz_loadu_pd(mask, y + i + step + 2 * reach);
 				const __m512d width = _mm512_sub_pd(x1, cx);
 				const __m512d height = _mm512_sub_pd(y2, y0);
 				acc1 = _mm512_fmadd_pd(width, height, acc1);
@@ -95,53 +102,60 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_0_avx512(
 /* all moments of x^m y^n, m + n <= 1; scheme even-power.
  * Cost per item: 4 mul or fma, 4 add; 3 accumulators, 7 values alive, depth 3. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_1_avx512(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m512d acc0 = _mm512_loadu_pd(sum + pass);
 		__m512d acc1 = _mm512_loadu_pd(sum + 8 + pass);
 		__m512d acc2 = _mm512_loadu_pd(sum + 16 + pass);
-		size_t next = 0;
-		if (next + 16 < count + 2) {
+		size_t i = pass;
+		if (reach == 1 && step == 8 && i + 16 < count + 2) {
 			__m512d xa = _mm512_loadu_pd(x);
 			__m512d ya = _mm512_loadu_pd(y);
-			for (; next + 16 < count + 2; next += 8) {
+			for (; i + 16 < count + 2; i += 8) {
 				{
-					const __m512d xb = _mm512_loadu_pd(x + next + 8);
-					const __m512d yb = _mm512_loadu_pd(y + next + 8);
-				const __m512d x0 = xa;
-				const __m512d y0 = ya;
-				const __m512d x1 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(xb), _mm512_castpd_si512(xa), 1));
-				const __m512d y1 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(yb), _mm512_castpd_si512(ya), 1));
-				const __m512d t0 = _mm512_mul_pd(x0, y1);
-				const __m512d t1 = _mm512_mul_pd(x1, y0);
-				const __m512d s = _mm512_sub_pd(t0, t1);
-				acc0 = _mm512_add_pd(acc0, s);
-				const __m512d a = _mm512_add_pd(x0, x1);
-				acc1 = _mm512_fmadd_pd(s, a, acc1);
-				const __m512d b = _mm512_add_pd(y0, y1);
-				acc2 = _mm512_fmadd_pd(s, b, acc2);
+					const __m512d xb = _mm512_loadu_pd(x + i + 8);
+					const __m512d yb = _mm512_loadu_pd(y + i + 8);
+					const __m512d x0 = xa;
+					const __m512d y0 = ya;
+					const __m512d x1 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(xb), _mm512_castpd_si512(xa), 1));
+					const __m512d y1 = _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(yb), _mm512_castpd_si512(ya), 1));
+					const __m512d t0 = _mm512_mul_pd(x0, y1);
+					const __m512d t1 = _mm512_mul_pd(x1, y0);
+					const __m512d s = _mm512_sub_pd(t0, t1);
+					acc0 = _mm512_add_pd(acc0, s);
+					const __m512d a = _mm512_add_pd(x0, x1);
+					acc1 = _mm512_fmadd_pd(s, a, acc1);
+					const __m512d b = _mm512_add_pd(y0, y1);
+					acc2 = _mm512_fmadd_pd(s, b, acc2);
 					xa = xb;
 					ya = yb;
 				}
 			}
 		}
-		for (size_t i = next; i < count; i += 8) {
+		for (; i + 7 < count; i += step) {
+			const __m512d x0 = _mm512_loadu_pd(x + i);
+			const __m512d y0 = _mm512_loadu_pd(y + i);
+			const __m512d x1 = _mm512_loadu_pd(x + i + reach);
+			const __m512d y1 = _mm512_loadu_pd(y + i + reach);
+			const __m512d t0 = _mm512_mul_pd(x0, y1);
+			const __m512d t1 = _mm512_mul_pd(x1, y0);
+			const __m512d s = _mm512_sub_pd(t0, t1);
+			acc0 = _mm512_add_pd(acc0, s);
+			const __m512d a = _mm512_add_pd(x0, x1);
+			acc1 = _mm512_fmadd_pd(s, a, acc1);
+			const __m512d b = _mm512_add_pd(y0, y1);
+			acc2 = _mm512_fmadd_pd(s, b, acc2);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			double pad[4][8];
-			const double *at_x0 = rest < 8
-				? ew_ring_pad(pad[0], x + i, rest, 8) : x + i;
-			const __m512d x0 = _mm512_loadu_pd(at_x0);
-			const double *at_y0 = rest < 8
-				? ew_ring_pad(pad[1], y + i, rest, 8) : y + i;
-			const __m512d y0 = _mm512_loadu_pd(at_y0);
-			const double *at_x1 = rest < 8
-				? ew_ring_pad(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m512d x1 = _mm512_loadu_pd(at_x1);
-			const double *at_y1 = rest < 8
-				? ew_ring_pad(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m512d y1 = _mm512_loadu_pd(at_y1);
+			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
+			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
+			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
+			const __m512d y1 = _mm512_maskz_loadu_pd(mask, y + i + reach);
 			const __m512d t0 = _mm512_mul_pd(x0, y1);
 			const __m512d t1 = _mm512_mul_pd(x1, y0);
 			const __m512d s = _mm512_sub_pd(t0, t1);
@@ -160,31 +174,49 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_1_avx512(
 /* all moments of x^m y^n, m + n <= 2; scheme shared.
  * Cost per item: 12 mul or fma, 6 add; 6 accumulators, 10 values alive, depth 4. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_2_avx512(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m512d acc0 = _mm512_loadu_pd(sum + pass);
 		__m512d acc1 = _mm512_loadu_pd(sum + 8 + pass);
 		__m512d acc2 = _mm512_loadu_pd(sum + 16 + pass);
 		__m512d acc3 = _mm512_loadu_pd(sum + 24 + pass);
 		__m512d acc4 = _mm512_loadu_pd(sum + 32 + pass);
 		__m512d acc5 = _mm512_loadu_pd(sum + 40 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			const __m512d x0 = _mm512_loadu_pd(x + i);
+			const __m512d y0 = _mm512_loadu_pd(y + i);
+			const __m512d x1 = _mm512_loadu_pd(x + i + reach);
+			const __m512d y1 = _mm512_loadu_pd(y + i + reach);
+			const __m512d t0 = _mm512_mul_pd(x0, y1);
+			const __m512d t1 = _mm512_mul_pd(x1, y0);
+			const __m512d s = _mm512_sub_pd(t0, t1);
+			acc0 = _mm512_add_pd(acc0, s);
+			const __m512d a = _mm512_add_pd(x0, x1);
+			acc1 = _mm512_fmadd_pd(s, a, acc1);
+			const __m512d b = _mm512_add_pd(y0, y1);
+			acc2 = _mm512_fmadd_pd(s, b, acc2);
+			const __m512d t2 = _mm512_mul_pd(x1, x1);
+			const __m512d xx = _mm512_fmadd_pd(a, x0, t2);
+			acc3 = _mm512_fmadd_pd(s, xx, acc3);
+			const __m512d t3 = _mm512_add_pd(a, a);
+			const __m512d t4 = _mm512_add_pd(t0, t1);
+			const __m512d xy = _mm512_fmsub_pd(b, t3, t4);
+			acc4 = _mm512_fmadd_pd(s, xy, acc4);
+			const __m512d t5 = _mm512_mul_pd(y1, y1);
+			const __m512d yy = _mm512_fmadd_pd(b, y0, t5);
+			acc5 = _mm512_fmadd_pd(s, yy, acc5);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			double pad[4][8];
-			const double *at_x0 = rest < 8
-				? ew_ring_pad(pad[0], x + i, rest, 8) : x + i;
-			const __m512d x0 = _mm512_loadu_pd(at_x0);
-			const double *at_y0 = rest < 8
-				? ew_ring_pad(pad[1], y + i, rest, 8) : y + i;
-			const __m512d y0 = _mm512_loadu_pd(at_y0);
-			const double *at_x1 = rest < 8
-				? ew_ring_pad(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m512d x1 = _mm512_loadu_pd(at_x1);
-			const double *at_y1 = rest < 8
-				? ew_ring_pad(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m512d y1 = _mm512_loadu_pd(at_y1);
+			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
+			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
+			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
+			const __m512d y1 = _mm512_maskz_loadu_pd(mask, y + i + reach);
 			const __m512d t0 = _mm512_mul_pd(x0, y1);
 			const __m512d t1 = _mm512_mul_pd(x1, y0);
 			const __m512d s = _mm512_sub_pd(t0, t1);
@@ -216,10 +248,11 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_2_avx512(
 /* all moments of x^m y^n, m + n <= 3; scheme even-power.
  * Cost per item: 18 mul or fma, 14 add; 15 accumulators, 11 values alive, depth 6. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_3_avx512(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m512d acc0 = _mm512_loadu_pd(sum + pass);
 		__m512d acc1 = _mm512_loadu_pd(sum + 8 + pass);
 		__m512d acc2 = _mm512_loadu_pd(sum + 16 + pass);
@@ -235,21 +268,52 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_3_avx512(
 		__m512d acc12 = _mm512_loadu_pd(sum + 96 + pass);
 		__m512d acc13 = _mm512_loadu_pd(sum + 104 + pass);
 		__m512d acc14 = _mm512_loadu_pd(sum + 112 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			const __m512d x0 = _mm512_loadu_pd(x + i);
+			const __m512d y0 = _mm512_loadu_pd(y + i);
+			const __m512d x1 = _mm512_loadu_pd(x + i + reach);
+			const __m512d y1 = _mm512_loadu_pd(y + i + reach);
+			const __m512d t0 = _mm512_mul_pd(x0, y1);
+			const __m512d t1 = _mm512_mul_pd(x1, y0);
+			const __m512d s = _mm512_sub_pd(t0, t1);
+			acc0 = _mm512_add_pd(acc0, s);
+			const __m512d a = _mm512_add_pd(x0, x1);
+			const __m512d t2 = _mm512_mul_pd(s, a);
+			acc1 = _mm512_add_pd(acc1, t2);
+			const __m512d b = _mm512_add_pd(y0, y1);
+			const __m512d t3 = _mm512_mul_pd(s, b);
+			acc2 = _mm512_add_pd(acc2, t3);
+			const __m512d e = _mm512_sub_pd(x1, x0);
+			const __m512d t4 = _mm512_mul_pd(s, e);
+			const __m512d qxx = _mm512_mul_pd(e, t4);
+			const __m512d txx = _mm512_fmadd_pd(a, t2, qxx);
+			acc3 = _mm512_add_pd(acc3, txx);
+			acc4 = _mm512_add_pd(acc4, qxx);
+			const __m512d f = _mm512_sub_pd(y1, y0);
+			const __m512d qxy = _mm512_mul_pd(f, t4);
+			const __m512d txy = _mm512_fmadd_pd(b, t2, qxy);
+			acc5 = _mm512_add_pd(acc5, txy);
+			acc6 = _mm512_add_pd(acc6, qxy);
+			const __m512d t5 = _mm512_mul_pd(s, f);
+			const __m512d qyy = _mm512_mul_pd(f, t5);
+			const __m512d tyy = _mm512_fmadd_pd(b, t3, qyy);
+			acc7 = _mm512_add_pd(acc7, tyy);
+			acc8 = _mm512_add_pd(acc8, qyy);
+			acc9 = _mm512_fmadd_pd(a, txx, acc9);
+			acc10 = _mm512_fmadd_pd(b, txx, acc10);
+			acc11 = _mm512_fmadd_pd(a, txy, acc11);
+			acc12 = _mm512_fmadd_pd(b, txy, acc12);
+			acc13 = _mm512_fmadd_pd(a, tyy, acc13);
+			acc14 = _mm512_fmadd_pd(b, tyy, acc14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			double pad[4][8];
-			const double *at_x0 = rest < 8
-				? ew_ring_pad(pad[0], x + i, rest, 8) : x + i;
-			const __m512d x0 = _mm512_loadu_pd(at_x0);
-			const double *at_y0 = rest < 8
-				? ew_ring_pad(pad[1], y + i, rest, 8) : y + i;
-			const __m512d y0 = _mm512_loadu_pd(at_y0);
-			const double *at_x1 = rest < 8
-				? ew_ring_pad(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m512d x1 = _mm512_loadu_pd(at_x1);
-			const double *at_y1 = rest < 8
-				? ew_ring_pad(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m512d y1 = _mm512_loadu_pd(at_y1);
+			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
+			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
+			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
+			const __m512d y1 = _mm512_maskz_loadu_pd(mask, y + i + reach);
 			const __m512d t0 = _mm512_mul_pd(x0, y1);
 			const __m512d t1 = _mm512_mul_pd(x1, y0);
 			const __m512d s = _mm512_sub_pd(t0, t1);
@@ -304,10 +368,11 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_3_avx512(
 /* all moments of x^m y^n, m + n <= 4; scheme even-power.
  * Cost per item: 33 mul or fma, 12 add; 26 accumulators, 15 values alive, depth 5. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_4_avx512(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m512d acc0 = _mm512_loadu_pd(sum + pass);
 		__m512d acc1 = _mm512_loadu_pd(sum + 8 + pass);
 		__m512d acc2 = _mm512_loadu_pd(sum + 16 + pass);
@@ -334,21 +399,65 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_4_avx512(
 		__m512d acc23 = _mm512_loadu_pd(sum + 184 + pass);
 		__m512d acc24 = _mm512_loadu_pd(sum + 192 + pass);
 		__m512d acc25 = _mm512_loadu_pd(sum + 200 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			const __m512d x0 = _mm512_loadu_pd(x + i);
+			const __m512d y0 = _mm512_loadu_pd(y + i);
+			const __m512d x1 = _mm512_loadu_pd(x + i + reach);
+			const __m512d y1 = _mm512_loadu_pd(y + i + reach);
+			const __m512d t0 = _mm512_mul_pd(x0, y1);
+			const __m512d t1 = _mm512_mul_pd(x1, y0);
+			const __m512d s = _mm512_sub_pd(t0, t1);
+			acc0 = _mm512_add_pd(acc0, s);
+			const __m512d a = _mm512_add_pd(x0, x1);
+			acc1 = _mm512_fmadd_pd(s, a, acc1);
+			const __m512d b = _mm512_add_pd(y0, y1);
+			acc2 = _mm512_fmadd_pd(s, b, acc2);
+			const __m512d e = _mm512_sub_pd(x1, x0);
+			const __m512d ee = _mm512_mul_pd(e, e);
+			const __m512d rxx = _mm512_fmadd_pd(a, a, ee);
+			const __m512d txx = _mm512_mul_pd(s, rxx);
+			acc3 = _mm512_add_pd(acc3, txx);
+			const __m512d qxx = _mm512_mul_pd(s, ee);
+			acc4 = _mm512_add_pd(acc4, qxx);
+			const __m512d f = _mm512_sub_pd(y1, y0);
+			const __m512d ef = _mm512_mul_pd(e, f);
+			const __m512d rxy = _mm512_fmadd_pd(a, b, ef);
+			const __m512d txy = _mm512_mul_pd(s, rxy);
+			acc5 = _mm512_add_pd(acc5, txy);
+			const __m512d qxy = _mm512_mul_pd(s, ef);
+			acc6 = _mm512_add_pd(acc6, qxy);
+			const __m512d ff = _mm512_mul_pd(f, f);
+			const __m512d ryy = _mm512_fmadd_pd(b, b, ff);
+			const __m512d tyy = _mm512_mul_pd(s, ryy);
+			acc7 = _mm512_add_pd(acc7, tyy);
+			const __m512d qyy = _mm512_mul_pd(s, ff);
+			acc8 = _mm512_add_pd(acc8, qyy);
+			acc9 = _mm512_fmadd_pd(a, txx, acc9);
+			acc10 = _mm512_fmadd_pd(b, txx, acc10);
+			acc11 = _mm512_fmadd_pd(a, txy, acc11);
+			acc12 = _mm512_fmadd_pd(b, txy, acc12);
+			acc13 = _mm512_fmadd_pd(a, tyy, acc13);
+			acc14 = _mm512_fmadd_pd(b, tyy, acc14);
+			acc15 = _mm512_fmadd_pd(rxx, txx, acc15);
+			acc16 = _mm512_fmadd_pd(txx, rxy, acc16);
+			acc17 = _mm512_fmadd_pd(txx, ryy, acc17);
+			acc18 = _mm512_fmadd_pd(rxy, txy, acc18);
+			acc19 = _mm512_fmadd_pd(txy, ryy, acc19);
+			acc20 = _mm512_fmadd_pd(ryy, tyy, acc20);
+			acc21 = _mm512_fmadd_pd(ee, qxx, acc21);
+			acc22 = _mm512_fmadd_pd(qxx, ef, acc22);
+			acc23 = _mm512_fmadd_pd(qxx, ff, acc23);
+			acc24 = _mm512_fmadd_pd(qxy, ff, acc24);
+			acc25 = _mm512_fmadd_pd(ff, qyy, acc25);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			double pad[4][8];
-			const double *at_x0 = rest < 8
-				? ew_ring_pad(pad[0], x + i, rest, 8) : x + i;
-			const __m512d x0 = _mm512_loadu_pd(at_x0);
-			const double *at_y0 = rest < 8
-				? ew_ring_pad(pad[1], y + i, rest, 8) : y + i;
-			const __m512d y0 = _mm512_loadu_pd(at_y0);
-			const double *at_x1 = rest < 8
-				? ew_ring_pad(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m512d x1 = _mm512_loadu_pd(at_x1);
-			const double *at_y1 = rest < 8
-				? ew_ring_pad(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m512d y1 = _mm512_loadu_pd(at_y1);
+			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
+			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
+			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
+			const __m512d y1 = _mm512_maskz_loadu_pd(mask, y + i + reach);
 			const __m512d t0 = _mm512_mul_pd(x0, y1);
 			const __m512d t1 = _mm512_mul_pd(x1, y0);
 			const __m512d s = _mm512_sub_pd(t0, t1);
@@ -427,189 +536,376 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_4_avx512(
 /* all moments of x^m y^n, m + n <= 5; scheme recurrence.
  * Cost per item: 58 mul or fma, 16 add; 25 accumulators, 16 values alive, depth 13. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_5_avx512(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 8) {
-		__m512d acc0 = _mm512_loadu_pd(sum + pass);
-		__m512d acc1 = _mm512_loadu_pd(sum + 8 + pass);
-		__m512d acc2 = _mm512_loadu_pd(sum + 16 + pass);
-		__m512d acc3 = _mm512_loadu_pd(sum + 24 + pass);
-		__m512d acc4 = _mm512_loadu_pd(sum + 32 + pass);
-		__m512d acc5 = _mm512_loadu_pd(sum + 40 + pass);
-		__m512d acc6 = _mm512_loadu_pd(sum + 48 + pass);
-		__m512d acc7 = _mm512_loadu_pd(sum + 56 + pass);
-		__m512d acc8 = _mm512_loadu_pd(sum + 64 + pass);
-		__m512d acc9 = _mm512_loadu_pd(sum + 72 + pass);
-		__m512d acc10 = _mm512_loadu_pd(sum + 80 + pass);
-		__m512d acc11 = _mm512_loadu_pd(sum + 88 + pass);
-		__m512d acc12 = _mm512_loadu_pd(sum + 96 + pass);
-		__m512d acc13 = _mm512_loadu_pd(sum + 104 + pass);
-		__m512d acc14 = _mm512_loadu_pd(sum + 112 + pass);
-		__m512d acc15 = _mm512_loadu_pd(sum + 120 + pass);
-		__m512d acc16 = _mm512_loadu_pd(sum + 128 + pass);
-		__m512d acc17 = _mm512_loadu_pd(sum + 136 + pass);
-		__m512d acc18 = _mm512_loadu_pd(sum + 144 + pass);
-		__m512d acc19 = _mm512_loadu_pd(sum + 152 + pass);
-		__m512d acc20 = _mm512_loadu_pd(sum + 160 + pass);
-		__m512d acc21 = _mm512_loadu_pd(sum + 168 + pass);
-		__m512d acc22 = _mm512_loadu_pd(sum + 176 + pass);
-		__m512d acc23 = _mm512_loadu_pd(sum + 184 + pass);
-		__m512d acc24 = _mm512_loadu_pd(sum + 192 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
+		size_t i = pass;
+		for (; i + step + 7 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const __m512d x0 = _mm512_loadu_pd(x + i);
+			const __m512d y0 = _mm512_loadu_pd(y + i);
+			const __m512d x1 = _mm512_loadu_pd(x + i + reach);
+			const __m512d y1 = _mm512_loadu_pd(y + i + reach);
+			const __m512d x0_2 = _mm512_loadu_pd(x + i + step);
+			const __m512d y0_2 = _mm512_loadu_pd(y + i + step);
+			const __m512d x1_2 = _mm512_loadu_pd(x + i + step + reach);
+			const __m512d y1_2 = _mm512_loadu_pd(y + i + step + reach);
+			const __m512d t0 = _mm512_mul_pd(x0, y1);
+			const __m512d t0_2 = _mm512_mul_pd(x0_2, y1_2);
+			const __m512d t1 = _mm512_mul_pd(x1, y0);
+			const __m512d t1_2 = _mm512_mul_pd(x1_2, y0_2);
+			const __m512d s = _mm512_sub_pd(t0, t1);
+			const __m512d s_2 = _mm512_sub_pd(t0_2, t1_2);
+			__m512d acc0 = _mm512_loadu_pd(sum + pass);
+			acc0 = _mm512_add_pd(acc0, s);
+			acc0 = _mm512_add_pd(acc0, s_2);
+			_mm512_storeu_pd(sum + pass, acc0);
+			const __m512d w1_0 = _mm512_mul_pd(s, x1);
+			const __m512d w1_0_2 = _mm512_mul_pd(s_2, x1_2);
+			const __m512d h1_0 = _mm512_fmadd_pd(s, x0, w1_0);
+			const __m512d h1_0_2 = _mm512_fmadd_pd(s_2, x0_2, w1_0_2);
+			__m512d acc1 = _mm512_loadu_pd(sum + 8 + pass);
+			acc1 = _mm512_add_pd(acc1, h1_0);
+			acc1 = _mm512_add_pd(acc1, h1_0_2);
+			_mm512_storeu_pd(sum + 8 + pass, acc1);
+			const __m512d w0_1 = _mm512_mul_pd(s, y1);
+			const __m512d w0_1_2 = _mm512_mul_pd(s_2, y1_2);
+			const __m512d h0_1 = _mm512_fmadd_pd(s, y0, w0_1);
+			const __m512d h0_1_2 = _mm512_fmadd_pd(s_2, y0_2, w0_1_2);
+			__m512d acc2 = _mm512_loadu_pd(sum + 16 + pass);
+			acc2 = _mm512_add_pd(acc2, h0_1);
+			acc2 = _mm512_add_pd(acc2, h0_1_2);
+			_mm512_storeu_pd(sum + 16 + pass, acc2);
+			const __m512d w2_0 = _mm512_mul_pd(w1_0, x1);
+			const __m512d w2_0_2 = _mm512_mul_pd(w1_0_2, x1_2);
+			const __m512d h2_0 = _mm512_fmadd_pd(h1_0, x0, w2_0);
+			const __m512d h2_0_2 = _mm512_fmadd_pd(h1_0_2, x0_2, w2_0_2);
+			__m512d acc3 = _mm512_loadu_pd(sum + 24 + pass);
+			acc3 = _mm512_add_pd(acc3, h2_0);
+			acc3 = _mm512_add_pd(acc3, h2_0_2);
+			_mm512_storeu_pd(sum + 24 + pass, acc3);
+			const __m512d w1_1 = _mm512_mul_pd(w0_1, x1);
+			const __m512d w1_1_2 = _mm512_mul_pd(w0_1_2, x1_2);
+			const __m512d t2 = _mm512_mul_pd(_mm512_set1_pd(2.0), w1_1);
+			const __m512d t2_2 = _mm512_mul_pd(_mm512_set1_pd(2.0), w1_1_2);
+			const __m512d t3 = _mm512_fmadd_pd(h1_0, y0, t2);
+			const __m512d t3_2 = _mm512_fmadd_pd(h1_0_2, y0_2, t2_2);
+			const __m512d h1_1 = _mm512_fmadd_pd(h0_1, x0, t3);
+			const __m512d h1_1_2 = _mm512_fmadd_pd(h0_1_2, x0_2, t3_2);
+			__m512d acc4 = _mm512_loadu_pd(sum + 32 + pass);
+			acc4 = _mm512_add_pd(acc4, h1_1);
+			acc4 = _mm512_add_pd(acc4, h1_1_2);
+			_mm512_storeu_pd(sum + 32 + pass, acc4);
+			const __m512d w0_2 = _mm512_mul_pd(w0_1, y1);
+			const __m512d w0_2_2 = _mm512_mul_pd(w0_1_2, y1_2);
+			const __m512d h0_2 = _mm512_fmadd_pd(h0_1, y0, w0_2);
+			const __m512d h0_2_2 = _mm512_fmadd_pd(h0_1_2, y0_2, w0_2_2);
+			__m512d acc5 = _mm512_loadu_pd(sum + 40 + pass);
+			acc5 = _mm512_add_pd(acc5, h0_2);
+			acc5 = _mm512_add_pd(acc5, h0_2_2);
+			_mm512_storeu_pd(sum + 40 + pass, acc5);
+			const __m512d w3_0 = _mm512_mul_pd(w2_0, x1);
+			const __m512d w3_0_2 = _mm512_mul_pd(w2_0_2, x1_2);
+			const __m512d h3_0 = _mm512_fmadd_pd(h2_0, x0, w3_0);
+			const __m512d h3_0_2 = _mm512_fmadd_pd(h2_0_2, x0_2, w3_0_2);
+			__m512d acc6 = _mm512_loadu_pd(sum + 48 + pass);
+			acc6 = _mm512_add_pd(acc6, h3_0);
+			acc6 = _mm512_add_pd(acc6, h3_0_2);
+			_mm512_storeu_pd(sum + 48 + pass, acc6);
+			const __m512d w2_1 = _mm512_mul_pd(w1_1, x1);
+			const __m512d w2_1_2 = _mm512_mul_pd(w1_1_2, x1_2);
+			const __m512d t4 = _mm512_mul_pd(_mm512_set1_pd(3.0), w2_1);
+			const __m512d t4_2 = _mm512_mul_pd(_mm512_set1_pd(3.0), w2_1_2);
+			const __m512d t5 = _mm512_fmadd_pd(h2_0, y0, t4);
+			const __m512d t5_2 = _mm512_fmadd_pd(h2_0_2, y0_2, t4_2);
+			const __m512d h2_1 = _mm512_fmadd_pd(h1_1, x0, t5);
+			const __m512d h2_1_2 = _mm512_fmadd_pd(h1_1_2, x0_2, t5_2);
+			__m512d acc7 = _mm512_loadu_pd(sum + 56 + pass);
+			acc7 = _mm512_add_pd(acc7, h2_1);
+			acc7 = _mm512_add_pd(acc7, h2_1_2);
+			_mm512_storeu_pd(sum + 56 + pass, acc7);
+			const __m512d w1_2 = _mm512_mul_pd(w0_2, x1);
+			const __m512d w1_2_2 = _mm512_mul_pd(w0_2_2, x1_2);
+			const __m512d t6 = _mm512_mul_pd(_mm512_set1_pd(3.0), w1_2);
+			const __m512d t6_2 = _mm512_mul_pd(_mm512_set1_pd(3.0), w1_2_2);
+			const __m512d t7 = _mm512_fmadd_pd(h1_1, y0, t6);
+			const __m512d t7_2 = _mm512_fmadd_pd(h1_1_2, y0_2, t6_2);
+			const __m512d h1_2 = _mm512_fmadd_pd(h0_2, x0, t7);
+			const __m512d h1_2_2 = _mm512_fmadd_pd(h0_2_2, x0_2, t7_2);
+			__m512d acc8 = _mm512_loadu_pd(sum + 64 + pass);
+			acc8 = _mm512_add_pd(acc8, h1_2);
+			acc8 = _mm512_add_pd(acc8, h1_2_2);
+			_mm512_storeu_pd(sum + 64 + pass, acc8);
+			const __m512d w0_3 = _mm512_mul_pd(w0_2, y1);
+			const __m512d w0_3_2 = _mm512_mul_pd(w0_2_2, y1_2);
+			const __m512d h0_3 = _mm512_fmadd_pd(h0_2, y0, w0_3);
+			const __m512d h0_3_2 = _mm512_fmadd_pd(h0_2_2, y0_2, w0_3_2);
+			__m512d acc9 = _mm512_loadu_pd(sum + 72 + pass);
+			acc9 = _mm512_add_pd(acc9, h0_3);
+			acc9 = _mm512_add_pd(acc9, h0_3_2);
+			_mm512_storeu_pd(sum + 72 + pass, acc9);
+			const __m512d w4_0 = _mm512_mul_pd(w3_0, x1);
+			const __m512d w4_0_2 = _mm512_mul_pd(w3_0_2, x1_2);
+			const __m512d h4_0 = _mm512_fmadd_pd(h3_0, x0, w4_0);
+			const __m512d h4_0_2 = _mm512_fmadd_pd(h3_0_2, x0_2, w4_0_2);
+			__m512d acc10 = _mm512_loadu_pd(sum + 80 + pass);
+			acc10 = _mm512_add_pd(acc10, h4_0);
+			acc10 = _mm512_add_pd(acc10, h4_0_2);
+			_mm512_storeu_pd(sum + 80 + pass, acc10);
+			const __m512d w3_1 = _mm512_mul_pd(w2_1, x1);
+			const __m512d w3_1_2 = _mm512_mul_pd(w2_1_2, x1_2);
+			const __m512d t8 = _mm512_mul_pd(_mm512_set1_pd(4.0), w3_1);
+			const __m512d t8_2 = _mm512_mul_pd(_mm512_set1_pd(4.0), w3_1_2);
+			const __m512d t9 = _mm512_fmadd_pd(h3_0, y0, t8);
+			const __m512d t9_2 = _mm512_fmadd_pd(h3_0_2, y0_2, t8_2);
+			const __m512d h3_1 = _mm512_fmadd_pd(h2_1, x0, t9);
+			const __m512d h3_1_2 = _mm512_fmadd_pd(h2_1_2, x0_2, t9_2);
+			__m512d acc11 = _mm512_loadu_pd(sum + 88 + pass);
+			acc11 = _mm512_add_pd(acc11, h3_1);
+			acc11 = _mm512_add_pd(acc11, h3_1_2);
+			_mm512_storeu_pd(sum + 88 + pass, acc11);
+			const __m512d w2_2 = _mm512_mul_pd(w1_2, x1);
+			const __m512d w2_2_2 = _mm512_mul_pd(w1_2_2, x1_2);
+			const __m512d t10 = _mm512_mul_pd(_mm512_set1_pd(6.0), w2_2);
+			const __m512d t10_2 = _mm512_mul_pd(_mm512_set1_pd(6.0), w2_2_2);
+			const __m512d t11 = _mm512_fmadd_pd(h2_1, y0, t10);
+			const __m512d t11_2 = _mm512_fmadd_pd(h2_1_2, y0_2, t10_2);
+			const __m512d h2_2 = _mm512_fmadd_pd(h1_2, x0, t11);
+			const __m512d h2_2_2 = _mm512_fmadd_pd(h1_2_2, x0_2, t11_2);
+			__m512d acc12 = _mm512_loadu_pd(sum + 96 + pass);
+			acc12 = _mm512_add_pd(acc12, h2_2);
+			acc12 = _mm512_add_pd(acc12, h2_2_2);
+			_mm512_storeu_pd(sum + 96 + pass, acc12);
+			const __m512d w1_3 = _mm512_mul_pd(w0_3, x1);
+			const __m512d w1_3_2 = _mm512_mul_pd(w0_3_2, x1_2);
+			const __m512d t12 = _mm512_mul_pd(_mm512_set1_pd(4.0), w1_3);
+			const __m512d t12_2 = _mm512_mul_pd(_mm512_set1_pd(4.0), w1_3_2);
+			const __m512d t13 = _mm512_fmadd_pd(h1_2, y0, t12);
+			const __m512d t13_2 = _mm512_fmadd_pd(h1_2_2, y0_2, t12_2);
+			const __m512d h1_3 = _mm512_fmadd_pd(h0_3, x0, t13);
+			const __m512d h1_3_2 = _mm512_fmadd_pd(h0_3_2, x0_2, t13_2);
+			__m512d acc13 = _mm512_loadu_pd(sum + 104 + pass);
+			acc13 = _mm512_add_pd(acc13, h1_3);
+			acc13 = _mm512_add_pd(acc13, h1_3_2);
+			_mm512_storeu_pd(sum + 104 + pass, acc13);
+			const __m512d w0_4 = _mm512_mul_pd(w0_3, y1);
+			const __m512d w0_4_2 = _mm512_mul_pd(w0_3_2, y1_2);
+			const __m512d h0_4 = _mm512_fmadd_pd(h0_3, y0, w0_4);
+			const __m512d h0_4_2 = _mm512_fmadd_pd(h0_3_2, y0_2, w0_4_2);
+			__m512d acc14 = _mm512_loadu_pd(sum + 112 + pass);
+			acc14 = _mm512_add_pd(acc14, h0_4);
+			acc14 = _mm512_add_pd(acc14, h0_4_2);
+			_mm512_storeu_pd(sum + 112 + pass, acc14);
+			__m512d acc15 = _mm512_loadu_pd(sum + 120 + pass);
+			const __m512d t14 = _mm512_fmadd_pd(w4_0, x1, acc15);
+			acc15 = _mm512_fmadd_pd(h4_0, x0, t14);
+			const __m512d t14_2 = _mm512_fmadd_pd(w4_0_2, x1_2, acc15);
+			acc15 = _mm512_fmadd_pd(h4_0_2, x0_2, t14_2);
+			_mm512_storeu_pd(sum + 120 + pass, acc15);
+			__m512d acc16 = _mm512_loadu_pd(sum + 128 + pass);
+			const __m512d t15 = _mm512_fmadd_pd(h4_0, y0, acc16);
+			acc16 = _mm512_fmadd_pd(h3_1, x0, t15);
+			const __m512d t15_2 = _mm512_fmadd_pd(h4_0_2, y0_2, acc16);
+			acc16 = _mm512_fmadd_pd(h3_1_2, x0_2, t15_2);
+			_mm512_storeu_pd(sum + 128 + pass, acc16);
+			__m512d acc17 = _mm512_loadu_pd(sum + 136 + pass);
+			const __m512d t16 = _mm512_fmadd_pd(h3_1, y0, acc17);
+			acc17 = _mm512_fmadd_pd(h2_2, x0, t16);
+			const __m512d t16_2 = _mm512_fmadd_pd(h3_1_2, y0_2, acc17);
+			acc17 = _mm512_fmadd_pd(h2_2_2, x0_2, t16_2);
+			_mm512_storeu_pd(sum + 136 + pass, acc17);
+			__m512d acc18 = _mm512_loadu_pd(sum + 144 + pass);
+			const __m512d t17 = _mm512_fmadd_pd(h2_2, y0, acc18);
+			acc18 = _mm512_fmadd_pd(h1_3, x0, t17);
+			const __m512d t17_2 = _mm512_fmadd_pd(h2_2_2, y0_2, acc18);
+			acc18 = _mm512_fmadd_pd(h1_3_2, x0_2, t17_2);
+			_mm512_storeu_pd(sum + 144 + pass, acc18);
+			__m512d acc19 = _mm512_loadu_pd(sum + 152 + pass);
+			const __m512d t18 = _mm512_fmadd_pd(h1_3, y0, acc19);
+			acc19 = _mm512_fmadd_pd(h0_4, x0, t18);
+			const __m512d t18_2 = _mm512_fmadd_pd(h1_3_2, y0_2, acc19);
+			acc19 = _mm512_fmadd_pd(h0_4_2, x0_2, t18_2);
+			_mm512_storeu_pd(sum + 152 + pass, acc19);
+			__m512d acc20 = _mm512_loadu_pd(sum + 160 + pass);
+			const __m512d t19 = _mm512_fmadd_pd(w0_4, y1, acc20);
+			acc20 = _mm512_fmadd_pd(h0_4, y0, t19);
+			const __m512d t19_2 = _mm512_fmadd_pd(w0_4_2, y1_2, acc20);
+			acc20 = _mm512_fmadd_pd(h0_4_2, y0_2, t19_2);
+			_mm512_storeu_pd(sum + 160 + pass, acc20);
+			__m512d acc21 = _mm512_loadu_pd(sum + 168 + pass);
+			acc21 = _mm512_fmadd_pd(w3_1, x1, acc21);
+			acc21 = _mm512_fmadd_pd(w3_1_2, x1_2, acc21);
+			_mm512_storeu_pd(sum + 168 + pass, acc21);
+			__m512d acc22 = _mm512_loadu_pd(sum + 176 + pass);
+			acc22 = _mm512_fmadd_pd(w2_2, x1, acc22);
+			acc22 = _mm512_fmadd_pd(w2_2_2, x1_2, acc22);
+			_mm512_storeu_pd(sum + 176 + pass, acc22);
+			__m512d acc23 = _mm512_loadu_pd(sum + 184 + pass);
+			acc23 = _mm512_fmadd_pd(w1_3, x1, acc23);
+			acc23 = _mm512_fmadd_pd(w1_3_2, x1_2, acc23);
+			_mm512_storeu_pd(sum + 184 + pass, acc23);
+			__m512d acc24 = _mm512_loadu_pd(sum + 192 + pass);
+			acc24 = _mm512_fmadd_pd(w0_4, x1, acc24);
+			acc24 = _mm512_fmadd_pd(w0_4_2, x1_2, acc24);
+			_mm512_storeu_pd(sum + 192 + pass, acc24);
+		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
 			const size_t rest = count - i;
-			double pad[4][8];
-			const double *at_x0 = rest < 8
-				? ew_ring_pad(pad[0], x + i, rest, 8) : x + i;
-			const __m512d x0 = _mm512_loadu_pd(at_x0);
-			const double *at_y0 = rest < 8
-				? ew_ring_pad(pad[1], y + i, rest, 8) : y + i;
-			const __m512d y0 = _mm512_loadu_pd(at_y0);
-			const double *at_x1 = rest < 8
-				? ew_ring_pad(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m512d x1 = _mm512_loadu_pd(at_x1);
-			const double *at_y1 = rest < 8
-				? ew_ring_pad(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m512d y1 = _mm512_loadu_pd(at_y1);
+			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
+			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
+			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
+			const __m512d y1 = _mm512_maskz_loadu_pd(mask, y + i + reach);
 			const __m512d t0 = _mm512_mul_pd(x0, y1);
 			const __m512d t1 = _mm512_mul_pd(x1, y0);
 			const __m512d s = _mm512_sub_pd(t0, t1);
+			__m512d acc0 = _mm512_loadu_pd(sum + pass);
 			acc0 = _mm512_add_pd(acc0, s);
+			_mm512_storeu_pd(sum + pass, acc0);
 			const __m512d w1_0 = _mm512_mul_pd(s, x1);
 			const __m512d h1_0 = _mm512_fmadd_pd(s, x0, w1_0);
+			__m512d acc1 = _mm512_loadu_pd(sum + 8 + pass);
 			acc1 = _mm512_add_pd(acc1, h1_0);
+			_mm512_storeu_pd(sum + 8 + pass, acc1);
 			const __m512d w0_1 = _mm512_mul_pd(s, y1);
 			const __m512d h0_1 = _mm512_fmadd_pd(s, y0, w0_1);
+			__m512d acc2 = _mm512_loadu_pd(sum + 16 + pass);
 			acc2 = _mm512_add_pd(acc2, h0_1);
+			_mm512_storeu_pd(sum + 16 + pass, acc2);
 			const __m512d w2_0 = _mm512_mul_pd(w1_0, x1);
 			const __m512d h2_0 = _mm512_fmadd_pd(h1_0, x0, w2_0);
+			__m512d acc3 = _mm512_loadu_pd(sum + 24 + pass);
 			acc3 = _mm512_add_pd(acc3, h2_0);
+			_mm512_storeu_pd(sum + 24 + pass, acc3);
 			const __m512d w1_1 = _mm512_mul_pd(w0_1, x1);
 			const __m512d t2 = _mm512_mul_pd(_mm512_set1_pd(2.0), w1_1);
 			const __m512d t3 = _mm512_fmadd_pd(h1_0, y0, t2);
 			const __m512d h1_1 = _mm512_fmadd_pd(h0_1, x0, t3);
+			__m512d acc4 = _mm512_loadu_pd(sum + 32 + pass);
 			acc4 = _mm512_add_pd(acc4, h1_1);
+			_mm512_storeu_pd(sum + 32 + pass, acc4);
 			const __m512d w0_2 = _mm512_mul_pd(w0_1, y1);
 			const __m512d h0_2 = _mm512_fmadd_pd(h0_1, y0, w0_2);
+			__m512d acc5 = _mm512_loadu_pd(sum + 40 + pass);
 			acc5 = _mm512_add_pd(acc5, h0_2);
+			_mm512_storeu_pd(sum + 40 + pass, acc5);
 			const __m512d w3_0 = _mm512_mul_pd(w2_0, x1);
 			const __m512d h3_0 = _mm512_fmadd_pd(h2_0, x0, w3_0);
+			__m512d acc6 = _mm512_loadu_pd(sum + 48 + pass);
 			acc6 = _mm512_add_pd(acc6, h3_0);
+			_mm512_storeu_pd(sum + 48 + pass, acc6);
 			const __m512d w2_1 = _mm512_mul_pd(w1_1, x1);
 			const __m512d t4 = _mm512_mul_pd(_mm512_set1_pd(3.0), w2_1);
 			const __m512d t5 = _mm512_fmadd_pd(h2_0, y0, t4);
 			const __m512d h2_1 = _mm512_fmadd_pd(h1_1, x0, t5);
+			__m512d acc7 = _mm512_loadu_pd(sum + 56 + pass);
 			acc7 = _mm512_add_pd(acc7, h2_1);
+			_mm512_storeu_pd(sum + 56 + pass, acc7);
 			const __m512d w1_2 = _mm512_mul_pd(w0_2, x1);
 			const __m512d t6 = _mm512_mul_pd(_mm512_set1_pd(3.0), w1_2);
 			const __m512d t7 = _mm512_fmadd_pd(h1_1, y0, t6);
 			const __m512d h1_2 = _mm512_fmadd_pd(h0_2, x0, t7);
+			__m512d acc8 = _mm512_loadu_pd(sum + 64 + pass);
 			acc8 = _mm512_add_pd(acc8, h1_2);
+			_mm512_storeu_pd(sum + 64 + pass, acc8);
 			const __m512d w0_3 = _mm512_mul_pd(w0_2, y1);
 			const __m512d h0_3 = _mm512_fmadd_pd(h0_2, y0, w0_3);
+			__m512d acc9 = _mm512_loadu_pd(sum + 72 + pass);
 			acc9 = _mm512_add_pd(acc9, h0_3);
+			_mm512_storeu_pd(sum + 72 + pass, acc9);
 			const __m512d w4_0 = _mm512_mul_pd(w3_0, x1);
 			const __m512d h4_0 = _mm512_fmadd_pd(h3_0, x0, w4_0);
+			__m512d acc10 = _mm512_loadu_pd(sum + 80 + pass);
 			acc10 = _mm512_add_pd(acc10, h4_0);
+			_mm512_storeu_pd(sum + 80 + pass, acc10);
 			const __m512d w3_1 = _mm512_mul_pd(w2_1, x1);
 			const __m512d t8 = _mm512_mul_pd(_mm512_set1_pd(4.0), w3_1);
 			const __m512d t9 = _mm512_fmadd_pd(h3_0, y0, t8);
 			const __m512d h3_1 = _mm512_fmadd_pd(h2_1, x0, t9);
+			__m512d acc11 = _mm512_loadu_pd(sum + 88 + pass);
 			acc11 = _mm512_add_pd(acc11, h3_1);
+			_mm512_storeu_pd(sum + 88 + pass, acc11);
 			const __m512d w2_2 = _mm512_mul_pd(w1_2, x1);
 			const __m512d t10 = _mm512_mul_pd(_mm512_set1_pd(6.0), w2_2);
 			const __m512d t11 = _mm512_fmadd_pd(h2_1, y0, t10);
 			const __m512d h2_2 = _mm512_fmadd_pd(h1_2, x0, t11);
+			__m512d acc12 = _mm512_loadu_pd(sum + 96 + pass);
 			acc12 = _mm512_add_pd(acc12, h2_2);
+			_mm512_storeu_pd(sum + 96 + pass, acc12);
 			const __m512d w1_3 = _mm512_mul_pd(w0_3, x1);
 			const __m512d t12 = _mm512_mul_pd(_mm512_set1_pd(4.0), w1_3);
 			const __m512d t13 = _mm512_fmadd_pd(h1_2, y0, t12);
 			const __m512d h1_3 = _mm512_fmadd_pd(h0_3, x0, t13);
+			__m512d acc13 = _mm512_loadu_pd(sum + 104 + pass);
 			acc13 = _mm512_add_pd(acc13, h1_3);
+			_mm512_storeu_pd(sum + 104 + pass, acc13);
 			const __m512d w0_4 = _mm512_mul_pd(w0_3, y1);
 			const __m512d h0_4 = _mm512_fmadd_pd(h0_3, y0, w0_4);
+			__m512d acc14 = _mm512_loadu_pd(sum + 112 + pass);
 			acc14 = _mm512_add_pd(acc14, h0_4);
+			_mm512_storeu_pd(sum + 112 + pass, acc14);
+			__m512d acc15 = _mm512_loadu_pd(sum + 120 + pass);
 			const __m512d t14 = _mm512_fmadd_pd(w4_0, x1, acc15);
 			acc15 = _mm512_fmadd_pd(h4_0, x0, t14);
+			_mm512_storeu_pd(sum + 120 + pass, acc15);
+			__m512d acc16 = _mm512_loadu_pd(sum + 128 + pass);
 			const __m512d t15 = _mm512_fmadd_pd(h4_0, y0, acc16);
 			acc16 = _mm512_fmadd_pd(h3_1, x0, t15);
+			_mm512_storeu_pd(sum + 128 + pass, acc16);
+			__m512d acc17 = _mm512_loadu_pd(sum + 136 + pass);
 			const __m512d t16 = _mm512_fmadd_pd(h3_1, y0, acc17);
 			acc17 = _mm512_fmadd_pd(h2_2, x0, t16);
+			_mm512_storeu_pd(sum + 136 + pass, acc17);
+			__m512d acc18 = _mm512_loadu_pd(sum + 144 + pass);
 			const __m512d t17 = _mm512_fmadd_pd(h2_2, y0, acc18);
 			acc18 = _mm512_fmadd_pd(h1_3, x0, t17);
+			_mm512_storeu_pd(sum + 144 + pass, acc18);
+			__m512d acc19 = _mm512_loadu_pd(sum + 152 + pass);
 			const __m512d t18 = _mm512_fmadd_pd(h1_3, y0, acc19);
 			acc19 = _mm512_fmadd_pd(h0_4, x0, t18);
+			_mm512_storeu_pd(sum + 152 + pass, acc19);
+			__m512d acc20 = _mm512_loadu_pd(sum + 160 + pass);
 			const __m512d t19 = _mm512_fmadd_pd(w0_4, y1, acc20);
 			acc20 = _mm512_fmadd_pd(h0_4, y0, t19);
+			_mm512_storeu_pd(sum + 160 + pass, acc20);
+			__m512d acc21 = _mm512_loadu_pd(sum + 168 + pass);
 			acc21 = _mm512_fmadd_pd(w3_1, x1, acc21);
+			_mm512_storeu_pd(sum + 168 + pass, acc21);
+			__m512d acc22 = _mm512_loadu_pd(sum + 176 + pass);
 			acc22 = _mm512_fmadd_pd(w2_2, x1, acc22);
+			_mm512_storeu_pd(sum + 176 + pass, acc22);
+			__m512d acc23 = _mm512_loadu_pd(sum + 184 + pass);
 			acc23 = _mm512_fmadd_pd(w1_3, x1, acc23);
+			_mm512_storeu_pd(sum + 184 + pass, acc23);
+			__m512d acc24 = _mm512_loadu_pd(sum + 192 + pass);
 			acc24 = _mm512_fmadd_pd(w0_4, x1, acc24);
+			_mm512_storeu_pd(sum + 192 + pass, acc24);
 		}
-		_mm512_storeu_pd(sum + pass, acc0);
-		_mm512_storeu_pd(sum + 8 + pass, acc1);
-		_mm512_storeu_pd(sum + 16 + pass, acc2);
-		_mm512_storeu_pd(sum + 24 + pass, acc3);
-		_mm512_storeu_pd(sum + 32 + pass, acc4);
-		_mm512_storeu_pd(sum + 40 + pass, acc5);
-		_mm512_storeu_pd(sum + 48 + pass, acc6);
-		_mm512_storeu_pd(sum + 56 + pass, acc7);
-		_mm512_storeu_pd(sum + 64 + pass, acc8);
-		_mm512_storeu_pd(sum + 72 + pass, acc9);
-		_mm512_storeu_pd(sum + 80 + pass, acc10);
-		_mm512_storeu_pd(sum + 88 + pass, acc11);
-		_mm512_storeu_pd(sum + 96 + pass, acc12);
-		_mm512_storeu_pd(sum + 104 + pass, acc13);
-		_mm512_storeu_pd(sum + 112 + pass, acc14);
-		_mm512_storeu_pd(sum + 120 + pass, acc15);
-		_mm512_storeu_pd(sum + 128 + pass, acc16);
-		_mm512_storeu_pd(sum + 136 + pass, acc17);
-		_mm512_storeu_pd(sum + 144 + pass, acc18);
-		_mm512_storeu_pd(sum + 152 + pass, acc19);
-		_mm512_storeu_pd(sum + 160 + pass, acc20);
-		_mm512_storeu_pd(sum + 168 + pass, acc21);
-		_mm512_storeu_pd(sum + 176 + pass, acc22);
-		_mm512_storeu_pd(sum + 184 + pass, acc23);
-		_mm512_storeu_pd(sum + 192 + pass, acc24);
 	}
 }
 
 /* all moments of x^m y^n, m + n <= 6; scheme recurrence.
  * Cost per item: 81 mul or fma, 22 add; 33 accumulators, 18 values alive, depth 15. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_6_avx512(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 8) {
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			double pad[4][8];
-			const double *at_x0 = rest < 8
-				? ew_ring_pad(pad[0], x + i, rest, 8) : x + i;
-			const __m512d x0 = _mm512_loadu_pd(at_x0);
-			const double *at_y0 = rest < 8
-				? ew_ring_pad(pad[1], y + i, rest, 8) : y + i;
-			const __m512d y0 = _mm512_loadu_pd(at_y0);
-			const double *at_x1 = rest < 8
-				? ew_ring_pad(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m512d x1 = _mm512_loadu_pd(at_x1);
-			const double *at_y1 = rest < 8
-				? ew_ring_pad(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m512d y1 = _mm512_loadu_pd(at_y1);
-			const size_t rest_2 = count - i > 8 ? count - i - 8 : 0;
-			double pad_2[4][8];
-			const double *at_x0_2 = rest_2 < 8
-				? ew_ring_pad(pad_2[0], x + i + 8, rest_2, 8) : x + i + 8;
-			const __m512d x0_2 = _mm512_loadu_pd(at_x0_2);
-			const double *at_y0_2 = rest_2 < 8
-				? ew_ring_pad(pad_2[1], y + i + 8, rest_2, 8) : y + i + 8;
-			const __m512d y0_2 = _mm512_loadu_pd(at_y0_2);
-			const double *at_x1_2 = rest_2 < 8
-				? ew_ring_pad(pad_2[2], x + i + 9, rest_2, 8) : x + i + 9;
-			const __m512d x1_2 = _mm512_loadu_pd(at_x1_2);
-			const double *at_y1_2 = rest_2 < 8
-				? ew_ring_pad(pad_2[3], y + i + 9, rest_2, 8) : y + i + 9;
-			const __m512d y1_2 = _mm512_loadu_pd(at_y1_2);
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
+		size_t i = pass;
+		for (; i + step + 7 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const __m512d x0 = _mm512_loadu_pd(x + i);
+			const __m512d y0 = _mm512_loadu_pd(y + i);
+			const __m512d x1 = _mm512_loadu_pd(x + i + reach);
+			const __m512d y1 = _mm512_loadu_pd(y + i + reach);
+			const __m512d x0_2 = _mm512_loadu_pd(x + i + step);
+			const __m512d y0_2 = _mm512_loadu_pd(y + i + step);
+			const __m512d x1_2 = _mm512_loadu_pd(x + i + step + reach);
+			const __m512d y1_2 = _mm512_loadu_pd(y + i + step + reach);
 			const __m512d t0 = _mm512_mul_pd(x0, y1);
 			const __m512d t0_2 = _mm512_mul_pd(x0_2, y1_2);
 			const __m512d t1 = _mm512_mul_pd(x1, y0);
@@ -883,45 +1179,206 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_6_avx512(
 			acc32 = _mm512_fmadd_pd(w0_5_2, x1_2, acc32);
 			_mm512_storeu_pd(sum + 256 + pass, acc32);
 		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
+			const size_t rest = count - i;
+			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
+			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
+			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
+			const __m512d y1 = _mm512_maskz_loadu_pd(mask, y + i + reach);
+			const __m512d t0 = _mm512_mul_pd(x0, y1);
+			const __m512d t1 = _mm512_mul_pd(x1, y0);
+			const __m512d s = _mm512_sub_pd(t0, t1);
+			__m512d acc0 = _mm512_loadu_pd(sum + pass);
+			acc0 = _mm512_add_pd(acc0, s);
+			_mm512_storeu_pd(sum + pass, acc0);
+			const __m512d w1_0 = _mm512_mul_pd(s, x1);
+			const __m512d h1_0 = _mm512_fmadd_pd(s, x0, w1_0);
+			__m512d acc1 = _mm512_loadu_pd(sum + 8 + pass);
+			acc1 = _mm512_add_pd(acc1, h1_0);
+			_mm512_storeu_pd(sum + 8 + pass, acc1);
+			const __m512d w0_1 = _mm512_mul_pd(s, y1);
+			const __m512d h0_1 = _mm512_fmadd_pd(s, y0, w0_1);
+			__m512d acc2 = _mm512_loadu_pd(sum + 16 + pass);
+			acc2 = _mm512_add_pd(acc2, h0_1);
+			_mm512_storeu_pd(sum + 16 + pass, acc2);
+			const __m512d w2_0 = _mm512_mul_pd(w1_0, x1);
+			const __m512d h2_0 = _mm512_fmadd_pd(h1_0, x0, w2_0);
+			__m512d acc3 = _mm512_loadu_pd(sum + 24 + pass);
+			acc3 = _mm512_add_pd(acc3, h2_0);
+			_mm512_storeu_pd(sum + 24 + pass, acc3);
+			const __m512d w1_1 = _mm512_mul_pd(w0_1, x1);
+			const __m512d t2 = _mm512_mul_pd(_mm512_set1_pd(2.0), w1_1);
+			const __m512d t3 = _mm512_fmadd_pd(h1_0, y0, t2);
+			const __m512d h1_1 = _mm512_fmadd_pd(h0_1, x0, t3);
+			__m512d acc4 = _mm512_loadu_pd(sum + 32 + pass);
+			acc4 = _mm512_add_pd(acc4, h1_1);
+			_mm512_storeu_pd(sum + 32 + pass, acc4);
+			const __m512d w0_2 = _mm512_mul_pd(w0_1, y1);
+			const __m512d h0_2 = _mm512_fmadd_pd(h0_1, y0, w0_2);
+			__m512d acc5 = _mm512_loadu_pd(sum + 40 + pass);
+			acc5 = _mm512_add_pd(acc5, h0_2);
+			_mm512_storeu_pd(sum + 40 + pass, acc5);
+			const __m512d w3_0 = _mm512_mul_pd(w2_0, x1);
+			const __m512d h3_0 = _mm512_fmadd_pd(h2_0, x0, w3_0);
+			__m512d acc6 = _mm512_loadu_pd(sum + 48 + pass);
+			acc6 = _mm512_add_pd(acc6, h3_0);
+			_mm512_storeu_pd(sum + 48 + pass, acc6);
+			const __m512d w2_1 = _mm512_mul_pd(w1_1, x1);
+			const __m512d t4 = _mm512_mul_pd(_mm512_set1_pd(3.0), w2_1);
+			const __m512d t5 = _mm512_fmadd_pd(h2_0, y0, t4);
+			const __m512d h2_1 = _mm512_fmadd_pd(h1_1, x0, t5);
+			__m512d acc7 = _mm512_loadu_pd(sum + 56 + pass);
+			acc7 = _mm512_add_pd(acc7, h2_1);
+			_mm512_storeu_pd(sum + 56 + pass, acc7);
+			const __m512d w1_2 = _mm512_mul_pd(w0_2, x1);
+			const __m512d t6 = _mm512_mul_pd(_mm512_set1_pd(3.0), w1_2);
+			const __m512d t7 = _mm512_fmadd_pd(h1_1, y0, t6);
+			const __m512d h1_2 = _mm512_fmadd_pd(h0_2, x0, t7);
+			__m512d acc8 = _mm512_loadu_pd(sum + 64 + pass);
+			acc8 = _mm512_add_pd(acc8, h1_2);
+			_mm512_storeu_pd(sum + 64 + pass, acc8);
+			const __m512d w0_3 = _mm512_mul_pd(w0_2, y1);
+			const __m512d h0_3 = _mm512_fmadd_pd(h0_2, y0, w0_3);
+			__m512d acc9 = _mm512_loadu_pd(sum + 72 + pass);
+			acc9 = _mm512_add_pd(acc9, h0_3);
+			_mm512_storeu_pd(sum + 72 + pass, acc9);
+			const __m512d w4_0 = _mm512_mul_pd(w3_0, x1);
+			const __m512d h4_0 = _mm512_fmadd_pd(h3_0, x0, w4_0);
+			__m512d acc10 = _mm512_loadu_pd(sum + 80 + pass);
+			acc10 = _mm512_add_pd(acc10, h4_0);
+			_mm512_storeu_pd(sum + 80 + pass, acc10);
+			const __m512d w3_1 = _mm512_mul_pd(w2_1, x1);
+			const __m512d t8 = _mm512_mul_pd(_mm512_set1_pd(4.0), w3_1);
+			const __m512d t9 = _mm512_fmadd_pd(h3_0, y0, t8);
+			const __m512d h3_1 = _mm512_fmadd_pd(h2_1, x0, t9);
+			__m512d acc11 = _mm512_loadu_pd(sum + 88 + pass);
+			acc11 = _mm512_add_pd(acc11, h3_1);
+			_mm512_storeu_pd(sum + 88 + pass, acc11);
+			const __m512d w2_2 = _mm512_mul_pd(w1_2, x1);
+			const __m512d t10 = _mm512_mul_pd(_mm512_set1_pd(6.0), w2_2);
+			const __m512d t11 = _mm512_fmadd_pd(h2_1, y0, t10);
+			const __m512d h2_2 = _mm512_fmadd_pd(h1_2, x0, t11);
+			__m512d acc12 = _mm512_loadu_pd(sum + 96 + pass);
+			acc12 = _mm512_add_pd(acc12, h2_2);
+			_mm512_storeu_pd(sum + 96 + pass, acc12);
+			const __m512d w1_3 = _mm512_mul_pd(w0_3, x1);
+			const __m512d t12 = _mm512_mul_pd(_mm512_set1_pd(4.0), w1_3);
+			const __m512d t13 = _mm512_fmadd_pd(h1_2, y0, t12);
+			const __m512d h1_3 = _mm512_fmadd_pd(h0_3, x0, t13);
+			__m512d acc13 = _mm512_loadu_pd(sum + 104 + pass);
+			acc13 = _mm512_add_pd(acc13, h1_3);
+			_mm512_storeu_pd(sum + 104 + pass, acc13);
+			const __m512d w0_4 = _mm512_mul_pd(w0_3, y1);
+			const __m512d h0_4 = _mm512_fmadd_pd(h0_3, y0, w0_4);
+			__m512d acc14 = _mm512_loadu_pd(sum + 112 + pass);
+			acc14 = _mm512_add_pd(acc14, h0_4);
+			_mm512_storeu_pd(sum + 112 + pass, acc14);
+			const __m512d w5_0 = _mm512_mul_pd(w4_0, x1);
+			const __m512d h5_0 = _mm512_fmadd_pd(h4_0, x0, w5_0);
+			__m512d acc15 = _mm512_loadu_pd(sum + 120 + pass);
+			acc15 = _mm512_add_pd(acc15, h5_0);
+			_mm512_storeu_pd(sum + 120 + pass, acc15);
+			const __m512d w4_1 = _mm512_mul_pd(w3_1, x1);
+			const __m512d t14 = _mm512_mul_pd(_mm512_set1_pd(5.0), w4_1);
+			const __m512d t15 = _mm512_fmadd_pd(h4_0, y0, t14);
+			const __m512d h4_1 = _mm512_fmadd_pd(h3_1, x0, t15);
+			__m512d acc16 = _mm512_loadu_pd(sum + 128 + pass);
+			acc16 = _mm512_add_pd(acc16, h4_1);
+			_mm512_storeu_pd(sum + 128 + pass, acc16);
+			const __m512d w3_2 = _mm512_mul_pd(w2_2, x1);
+			const __m512d t16 = _mm512_mul_pd(_mm512_set1_pd(10.0), w3_2);
+			const __m512d t17 = _mm512_fmadd_pd(h3_1, y0, t16);
+			const __m512d h3_2 = _mm512_fmadd_pd(h2_2, x0, t17);
+			__m512d acc17 = _mm512_loadu_pd(sum + 136 + pass);
+			acc17 = _mm512_add_pd(acc17, h3_2);
+			_mm512_storeu_pd(sum + 136 + pass, acc17);
+			const __m512d w2_3 = _mm512_mul_pd(w1_3, x1);
+			const __m512d t18 = _mm512_mul_pd(_mm512_set1_pd(10.0), w2_3);
+			const __m512d t19 = _mm512_fmadd_pd(h2_2, y0, t18);
+			const __m512d h2_3 = _mm512_fmadd_pd(h1_3, x0, t19);
+			__m512d acc18 = _mm512_loadu_pd(sum + 144 + pass);
+			acc18 = _mm512_add_pd(acc18, h2_3);
+			_mm512_storeu_pd(sum + 144 + pass, acc18);
+			const __m512d w1_4 = _mm512_mul_pd(w0_4, x1);
+			const __m512d t20 = _mm512_mul_pd(_mm512_set1_pd(5.0), w1_4);
+			const __m512d t21 = _mm512_fmadd_pd(h1_3, y0, t20);
+			const __m512d h1_4 = _mm512_fmadd_pd(h0_4, x0, t21);
+			__m512d acc19 = _mm512_loadu_pd(sum + 152 + pass);
+			acc19 = _mm512_add_pd(acc19, h1_4);
+			_mm512_storeu_pd(sum + 152 + pass, acc19);
+			const __m512d w0_5 = _mm512_mul_pd(w0_4, y1);
+			const __m512d h0_5 = _mm512_fmadd_pd(h0_4, y0, w0_5);
+			__m512d acc20 = _mm512_loadu_pd(sum + 160 + pass);
+			acc20 = _mm512_add_pd(acc20, h0_5);
+			_mm512_storeu_pd(sum + 160 + pass, acc20);
+			__m512d acc21 = _mm512_loadu_pd(sum + 168 + pass);
+			const __m512d t22 = _mm512_fmadd_pd(w5_0, x1, acc21);
+			acc21 = _mm512_fmadd_pd(h5_0, x0, t22);
+			_mm512_storeu_pd(sum + 168 + pass, acc21);
+			__m512d acc22 = _mm512_loadu_pd(sum + 176 + pass);
+			const __m512d t23 = _mm512_fmadd_pd(h5_0, y0, acc22);
+			acc22 = _mm512_fmadd_pd(h4_1, x0, t23);
+			_mm512_storeu_pd(sum + 176 + pass, acc22);
+			__m512d acc23 = _mm512_loadu_pd(sum + 184 + pass);
+			const __m512d t24 = _mm512_fmadd_pd(h4_1, y0, acc23);
+			acc23 = _mm512_fmadd_pd(h3_2, x0, t24);
+			_mm512_storeu_pd(sum + 184 + pass, acc23);
+			__m512d acc24 = _mm512_loadu_pd(sum + 192 + pass);
+			const __m512d t25 = _mm512_fmadd_pd(h3_2, y0, acc24);
+			acc24 = _mm512_fmadd_pd(h2_3, x0, t25);
+			_mm512_storeu_pd(sum + 192 + pass, acc24);
+			__m512d acc25 = _mm512_loadu_pd(sum + 200 + pass);
+			const __m512d t26 = _mm512_fmadd_pd(h2_3, y0, acc25);
+			acc25 = _mm512_fmadd_pd(h1_4, x0, t26);
+			_mm512_storeu_pd(sum + 200 + pass, acc25);
+			__m512d acc26 = _mm512_loadu_pd(sum + 208 + pass);
+			const __m512d t27 = _mm512_fmadd_pd(h1_4, y0, acc26);
+			acc26 = _mm512_fmadd_pd(h0_5, x0, t27);
+			_mm512_storeu_pd(sum + 208 + pass, acc26);
+			__m512d acc27 = _mm512_loadu_pd(sum + 216 + pass);
+			const __m512d t28 = _mm512_fmadd_pd(w0_5, y1, acc27);
+			acc27 = _mm512_fmadd_pd(h0_5, y0, t28);
+			_mm512_storeu_pd(sum + 216 + pass, acc27);
+			__m512d acc28 = _mm512_loadu_pd(sum + 224 + pass);
+			acc28 = _mm512_fmadd_pd(w4_1, x1, acc28);
+			_mm512_storeu_pd(sum + 224 + pass, acc28);
+			__m512d acc29 = _mm512_loadu_pd(sum + 232 + pass);
+			acc29 = _mm512_fmadd_pd(w3_2, x1, acc29);
+			_mm512_storeu_pd(sum + 232 + pass, acc29);
+			__m512d acc30 = _mm512_loadu_pd(sum + 240 + pass);
+			acc30 = _mm512_fmadd_pd(w2_3, x1, acc30);
+			_mm512_storeu_pd(sum + 240 + pass, acc30);
+			__m512d acc31 = _mm512_loadu_pd(sum + 248 + pass);
+			acc31 = _mm512_fmadd_pd(w1_4, x1, acc31);
+			_mm512_storeu_pd(sum + 248 + pass, acc31);
+			__m512d acc32 = _mm512_loadu_pd(sum + 256 + pass);
+			acc32 = _mm512_fmadd_pd(w0_5, x1, acc32);
+			_mm512_storeu_pd(sum + 256 + pass, acc32);
+		}
 	}
 }
 
 /* all moments of x^m y^n, m + n <= 7; scheme recurrence.
  * Cost per item: 108 mul or fma, 29 add; 42 accumulators, 20 values alive, depth 17. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_7_avx512(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 8) {
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			double pad[4][8];
-			const double *at_x0 = rest < 8
-				? ew_ring_pad(pad[0], x + i, rest, 8) : x + i;
-			const __m512d x0 = _mm512_loadu_pd(at_x0);
-			const double *at_y0 = rest < 8
-				? ew_ring_pad(pad[1], y + i, rest, 8) : y + i;
-			const __m512d y0 = _mm512_loadu_pd(at_y0);
-			const double *at_x1 = rest < 8
-				? ew_ring_pad(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m512d x1 = _mm512_loadu_pd(at_x1);
-			const double *at_y1 = rest < 8
-				? ew_ring_pad(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m512d y1 = _mm512_loadu_pd(at_y1);
-			const size_t rest_2 = count - i > 8 ? count - i - 8 : 0;
-			double pad_2[4][8];
-			const double *at_x0_2 = rest_2 < 8
-				? ew_ring_pad(pad_2[0], x + i + 8, rest_2, 8) : x + i + 8;
-			const __m512d x0_2 = _mm512_loadu_pd(at_x0_2);
-			const double *at_y0_2 = rest_2 < 8
-				? ew_ring_pad(pad_2[1], y + i + 8, rest_2, 8) : y + i + 8;
-			const __m512d y0_2 = _mm512_loadu_pd(at_y0_2);
-			const double *at_x1_2 = rest_2 < 8
-				? ew_ring_pad(pad_2[2], x + i + 9, rest_2, 8) : x + i + 9;
-			const __m512d x1_2 = _mm512_loadu_pd(at_x1_2);
-			const double *at_y1_2 = rest_2 < 8
-				? ew_ring_pad(pad_2[3], y + i + 9, rest_2, 8) : y + i + 9;
-			const __m512d y1_2 = _mm512_loadu_pd(at_y1_2);
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
+		size_t i = pass;
+		for (; i + step + 7 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const __m512d x0 = _mm512_loadu_pd(x + i);
+			const __m512d y0 = _mm512_loadu_pd(y + i);
+			const __m512d x1 = _mm512_loadu_pd(x + i + reach);
+			const __m512d y1 = _mm512_loadu_pd(y + i + reach);
+			const __m512d x0_2 = _mm512_loadu_pd(x + i + step);
+			const __m512d y0_2 = _mm512_loadu_pd(y + i + step);
+			const __m512d x1_2 = _mm512_loadu_pd(x + i + step + reach);
+			const __m512d y1_2 = _mm512_loadu_pd(y + i + step + reach);
 			const __m512d t0 = _mm512_mul_pd(x0, y1);
 			const __m512d t0_2 = _mm512_mul_pd(x0_2, y1_2);
 			const __m512d t1 = _mm512_mul_pd(x1, y0);
@@ -1281,45 +1738,258 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_7_avx512(
 			acc41 = _mm512_fmadd_pd(w0_6_2, x1_2, acc41);
 			_mm512_storeu_pd(sum + 328 + pass, acc41);
 		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
+			const size_t rest = count - i;
+			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
+			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
+			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
+			const __m512d y1 = _mm512_maskz_loadu_pd(mask, y + i + reach);
+			const __m512d t0 = _mm512_mul_pd(x0, y1);
+			const __m512d t1 = _mm512_mul_pd(x1, y0);
+			const __m512d s = _mm512_sub_pd(t0, t1);
+			__m512d acc0 = _mm512_loadu_pd(sum + pass);
+			acc0 = _mm512_add_pd(acc0, s);
+			_mm512_storeu_pd(sum + pass, acc0);
+			const __m512d w1_0 = _mm512_mul_pd(s, x1);
+			const __m512d h1_0 = _mm512_fmadd_pd(s, x0, w1_0);
+			__m512d acc1 = _mm512_loadu_pd(sum + 8 + pass);
+			acc1 = _mm512_add_pd(acc1, h1_0);
+			_mm512_storeu_pd(sum + 8 + pass, acc1);
+			const __m512d w0_1 = _mm512_mul_pd(s, y1);
+			const __m512d h0_1 = _mm512_fmadd_pd(s, y0, w0_1);
+			__m512d acc2 = _mm512_loadu_pd(sum + 16 + pass);
+			acc2 = _mm512_add_pd(acc2, h0_1);
+			_mm512_storeu_pd(sum + 16 + pass, acc2);
+			const __m512d w2_0 = _mm512_mul_pd(w1_0, x1);
+			const __m512d h2_0 = _mm512_fmadd_pd(h1_0, x0, w2_0);
+			__m512d acc3 = _mm512_loadu_pd(sum + 24 + pass);
+			acc3 = _mm512_add_pd(acc3, h2_0);
+			_mm512_storeu_pd(sum + 24 + pass, acc3);
+			const __m512d w1_1 = _mm512_mul_pd(w0_1, x1);
+			const __m512d t2 = _mm512_mul_pd(_mm512_set1_pd(2.0), w1_1);
+			const __m512d t3 = _mm512_fmadd_pd(h1_0, y0, t2);
+			const __m512d h1_1 = _mm512_fmadd_pd(h0_1, x0, t3);
+			__m512d acc4 = _mm512_loadu_pd(sum + 32 + pass);
+			acc4 = _mm512_add_pd(acc4, h1_1);
+			_mm512_storeu_pd(sum + 32 + pass, acc4);
+			const __m512d w0_2 = _mm512_mul_pd(w0_1, y1);
+			const __m512d h0_2 = _mm512_fmadd_pd(h0_1, y0, w0_2);
+			__m512d acc5 = _mm512_loadu_pd(sum + 40 + pass);
+			acc5 = _mm512_add_pd(acc5, h0_2);
+			_mm512_storeu_pd(sum + 40 + pass, acc5);
+			const __m512d w3_0 = _mm512_mul_pd(w2_0, x1);
+			const __m512d h3_0 = _mm512_fmadd_pd(h2_0, x0, w3_0);
+			__m512d acc6 = _mm512_loadu_pd(sum + 48 + pass);
+			acc6 = _mm512_add_pd(acc6, h3_0);
+			_mm512_storeu_pd(sum + 48 + pass, acc6);
+			const __m512d w2_1 = _mm512_mul_pd(w1_1, x1);
+			const __m512d t4 = _mm512_mul_pd(_mm512_set1_pd(3.0), w2_1);
+			const __m512d t5 = _mm512_fmadd_pd(h2_0, y0, t4);
+			const __m512d h2_1 = _mm512_fmadd_pd(h1_1, x0, t5);
+			__m512d acc7 = _mm512_loadu_pd(sum + 56 + pass);
+			acc7 = _mm512_add_pd(acc7, h2_1);
+			_mm512_storeu_pd(sum + 56 + pass, acc7);
+			const __m512d w1_2 = _mm512_mul_pd(w0_2, x1);
+			const __m512d t6 = _mm512_mul_pd(_mm512_set1_pd(3.0), w1_2);
+			const __m512d t7 = _mm512_fmadd_pd(h1_1, y0, t6);
+			const __m512d h1_2 = _mm512_fmadd_pd(h0_2, x0, t7);
+			__m512d acc8 = _mm512_loadu_pd(sum + 64 + pass);
+			acc8 = _mm512_add_pd(acc8, h1_2);
+			_mm512_storeu_pd(sum + 64 + pass, acc8);
+			const __m512d w0_3 = _mm512_mul_pd(w0_2, y1);
+			const __m512d h0_3 = _mm512_fmadd_pd(h0_2, y0, w0_3);
+			__m512d acc9 = _mm512_loadu_pd(sum + 72 + pass);
+			acc9 = _mm512_add_pd(acc9, h0_3);
+			_mm512_storeu_pd(sum + 72 + pass, acc9);
+			const __m512d w4_0 = _mm512_mul_pd(w3_0, x1);
+			const __m512d h4_0 = _mm512_fmadd_pd(h3_0, x0, w4_0);
+			__m512d acc10 = _mm512_loadu_pd(sum + 80 + pass);
+			acc10 = _mm512_add_pd(acc10, h4_0);
+			_mm512_storeu_pd(sum + 80 + pass, acc10);
+			const __m512d w3_1 = _mm512_mul_pd(w2_1, x1);
+			const __m512d t8 = _mm512_mul_pd(_mm512_set1_pd(4.0), w3_1);
+			const __m512d t9 = _mm512_fmadd_pd(h3_0, y0, t8);
+			const __m512d h3_1 = _mm512_fmadd_pd(h2_1, x0, t9);
+			__m512d acc11 = _mm512_loadu_pd(sum + 88 + pass);
+			acc11 = _mm512_add_pd(acc11, h3_1);
+			_mm512_storeu_pd(sum + 88 + pass, acc11);
+			const __m512d w2_2 = _mm512_mul_pd(w1_2, x1);
+			const __m512d t10 = _mm512_mul_pd(_mm512_set1_pd(6.0), w2_2);
+			const __m512d t11 = _mm512_fmadd_pd(h2_1, y0, t10);
+			const __m512d h2_2 = _mm512_fmadd_pd(h1_2, x0, t11);
+			__m512d acc12 = _mm512_loadu_pd(sum + 96 + pass);
+			acc12 = _mm512_add_pd(acc12, h2_2);
+			_mm512_storeu_pd(sum + 96 + pass, acc12);
+			const __m512d w1_3 = _mm512_mul_pd(w0_3, x1);
+			const __m512d t12 = _mm512_mul_pd(_mm512_set1_pd(4.0), w1_3);
+			const __m512d t13 = _mm512_fmadd_pd(h1_2, y0, t12);
+			const __m512d h1_3 = _mm512_fmadd_pd(h0_3, x0, t13);
+			__m512d acc13 = _mm512_loadu_pd(sum + 104 + pass);
+			acc13 = _mm512_add_pd(acc13, h1_3);
+			_mm512_storeu_pd(sum + 104 + pass, acc13);
+			const __m512d w0_4 = _mm512_mul_pd(w0_3, y1);
+			const __m512d h0_4 = _mm512_fmadd_pd(h0_3, y0, w0_4);
+			__m512d acc14 = _mm512_loadu_pd(sum + 112 + pass);
+			acc14 = _mm512_add_pd(acc14, h0_4);
+			_mm512_storeu_pd(sum + 112 + pass, acc14);
+			const __m512d w5_0 = _mm512_mul_pd(w4_0, x1);
+			const __m512d h5_0 = _mm512_fmadd_pd(h4_0, x0, w5_0);
+			__m512d acc15 = _mm512_loadu_pd(sum + 120 + pass);
+			acc15 = _mm512_add_pd(acc15, h5_0);
+			_mm512_storeu_pd(sum + 120 + pass, acc15);
+			const __m512d w4_1 = _mm512_mul_pd(w3_1, x1);
+			const __m512d t14 = _mm512_mul_pd(_mm512_set1_pd(5.0), w4_1);
+			const __m512d t15 = _mm512_fmadd_pd(h4_0, y0, t14);
+			const __m512d h4_1 = _mm512_fmadd_pd(h3_1, x0, t15);
+			__m512d acc16 = _mm512_loadu_pd(sum + 128 + pass);
+			acc16 = _mm512_add_pd(acc16, h4_1);
+			_mm512_storeu_pd(sum + 128 + pass, acc16);
+			const __m512d w3_2 = _mm512_mul_pd(w2_2, x1);
+			const __m512d t16 = _mm512_mul_pd(_mm512_set1_pd(10.0), w3_2);
+			const __m512d t17 = _mm512_fmadd_pd(h3_1, y0, t16);
+			const __m512d h3_2 = _mm512_fmadd_pd(h2_2, x0, t17);
+			__m512d acc17 = _mm512_loadu_pd(sum + 136 + pass);
+			acc17 = _mm512_add_pd(acc17, h3_2);
+			_mm512_storeu_pd(sum + 136 + pass, acc17);
+			const __m512d w2_3 = _mm512_mul_pd(w1_3, x1);
+			const __m512d t18 = _mm512_mul_pd(_mm512_set1_pd(10.0), w2_3);
+			const __m512d t19 = _mm512_fmadd_pd(h2_2, y0, t18);
+			const __m512d h2_3 = _mm512_fmadd_pd(h1_3, x0, t19);
+			__m512d acc18 = _mm512_loadu_pd(sum + 144 + pass);
+			acc18 = _mm512_add_pd(acc18, h2_3);
+			_mm512_storeu_pd(sum + 144 + pass, acc18);
+			const __m512d w1_4 = _mm512_mul_pd(w0_4, x1);
+			const __m512d t20 = _mm512_mul_pd(_mm512_set1_pd(5.0), w1_4);
+			const __m512d t21 = _mm512_fmadd_pd(h1_3, y0, t20);
+			const __m512d h1_4 = _mm512_fmadd_pd(h0_4, x0, t21);
+			__m512d acc19 = _mm512_loadu_pd(sum + 152 + pass);
+			acc19 = _mm512_add_pd(acc19, h1_4);
+			_mm512_storeu_pd(sum + 152 + pass, acc19);
+			const __m512d w0_5 = _mm512_mul_pd(w0_4, y1);
+			const __m512d h0_5 = _mm512_fmadd_pd(h0_4, y0, w0_5);
+			__m512d acc20 = _mm512_loadu_pd(sum + 160 + pass);
+			acc20 = _mm512_add_pd(acc20, h0_5);
+			_mm512_storeu_pd(sum + 160 + pass, acc20);
+			const __m512d w6_0 = _mm512_mul_pd(w5_0, x1);
+			const __m512d h6_0 = _mm512_fmadd_pd(h5_0, x0, w6_0);
+			__m512d acc21 = _mm512_loadu_pd(sum + 168 + pass);
+			acc21 = _mm512_add_pd(acc21, h6_0);
+			_mm512_storeu_pd(sum + 168 + pass, acc21);
+			const __m512d w5_1 = _mm512_mul_pd(w4_1, x1);
+			const __m512d t22 = _mm512_mul_pd(_mm512_set1_pd(6.0), w5_1);
+			const __m512d t23 = _mm512_fmadd_pd(h5_0, y0, t22);
+			const __m512d h5_1 = _mm512_fmadd_pd(h4_1, x0, t23);
+			__m512d acc22 = _mm512_loadu_pd(sum + 176 + pass);
+			acc22 = _mm512_add_pd(acc22, h5_1);
+			_mm512_storeu_pd(sum + 176 + pass, acc22);
+			const __m512d w4_2 = _mm512_mul_pd(w3_2, x1);
+			const __m512d t24 = _mm512_mul_pd(_mm512_set1_pd(15.0), w4_2);
+			const __m512d t25 = _mm512_fmadd_pd(h4_1, y0, t24);
+			const __m512d h4_2 = _mm512_fmadd_pd(h3_2, x0, t25);
+			__m512d acc23 = _mm512_loadu_pd(sum + 184 + pass);
+			acc23 = _mm512_add_pd(acc23, h4_2);
+			_mm512_storeu_pd(sum + 184 + pass, acc23);
+			const __m512d w3_3 = _mm512_mul_pd(w2_3, x1);
+			const __m512d t26 = _mm512_mul_pd(_mm512_set1_pd(20.0), w3_3);
+			const __m512d t27 = _mm512_fmadd_pd(h3_2, y0, t26);
+			const __m512d h3_3 = _mm512_fmadd_pd(h2_3, x0, t27);
+			__m512d acc24 = _mm512_loadu_pd(sum + 192 + pass);
+			acc24 = _mm512_add_pd(acc24, h3_3);
+			_mm512_storeu_pd(sum + 192 + pass, acc24);
+			const __m512d w2_4 = _mm512_mul_pd(w1_4, x1);
+			const __m512d t28 = _mm512_mul_pd(_mm512_set1_pd(15.0), w2_4);
+			const __m512d t29 = _mm512_fmadd_pd(h2_3, y0, t28);
+			const __m512d h2_4 = _mm512_fmadd_pd(h1_4, x0, t29);
+			__m512d acc25 = _mm512_loadu_pd(sum + 200 + pass);
+			acc25 = _mm512_add_pd(acc25, h2_4);
+			_mm512_storeu_pd(sum + 200 + pass, acc25);
+			const __m512d w1_5 = _mm512_mul_pd(w0_5, x1);
+			const __m512d t30 = _mm512_mul_pd(_mm512_set1_pd(6.0), w1_5);
+			const __m512d t31 = _mm512_fmadd_pd(h1_4, y0, t30);
+			const __m512d h1_5 = _mm512_fmadd_pd(h0_5, x0, t31);
+			__m512d acc26 = _mm512_loadu_pd(sum + 208 + pass);
+			acc26 = _mm512_add_pd(acc26, h1_5);
+			_mm512_storeu_pd(sum + 208 + pass, acc26);
+			const __m512d w0_6 = _mm512_mul_pd(w0_5, y1);
+			const __m512d h0_6 = _mm512_fmadd_pd(h0_5, y0, w0_6);
+			__m512d acc27 = _mm512_loadu_pd(sum + 216 + pass);
+			acc27 = _mm512_add_pd(acc27, h0_6);
+			_mm512_storeu_pd(sum + 216 + pass, acc27);
+			__m512d acc28 = _mm512_loadu_pd(sum + 224 + pass);
+			const __m512d t32 = _mm512_fmadd_pd(w6_0, x1, acc28);
+			acc28 = _mm512_fmadd_pd(h6_0, x0, t32);
+			_mm512_storeu_pd(sum + 224 + pass, acc28);
+			__m512d acc29 = _mm512_loadu_pd(sum + 232 + pass);
+			const __m512d t33 = _mm512_fmadd_pd(h6_0, y0, acc29);
+			acc29 = _mm512_fmadd_pd(h5_1, x0, t33);
+			_mm512_storeu_pd(sum + 232 + pass, acc29);
+			__m512d acc30 = _mm512_loadu_pd(sum + 240 + pass);
+			const __m512d t34 = _mm512_fmadd_pd(h5_1, y0, acc30);
+			acc30 = _mm512_fmadd_pd(h4_2, x0, t34);
+			_mm512_storeu_pd(sum + 240 + pass, acc30);
+			__m512d acc31 = _mm512_loadu_pd(sum + 248 + pass);
+			const __m512d t35 = _mm512_fmadd_pd(h4_2, y0, acc31);
+			acc31 = _mm512_fmadd_pd(h3_3, x0, t35);
+			_mm512_storeu_pd(sum + 248 + pass, acc31);
+			__m512d acc32 = _mm512_loadu_pd(sum + 256 + pass);
+			const __m512d t36 = _mm512_fmadd_pd(h3_3, y0, acc32);
+			acc32 = _mm512_fmadd_pd(h2_4, x0, t36);
+			_mm512_storeu_pd(sum + 256 + pass, acc32);
+			__m512d acc33 = _mm512_loadu_pd(sum + 264 + pass);
+			const __m512d t37 = _mm512_fmadd_pd(h2_4, y0, acc33);
+			acc33 = _mm512_fmadd_pd(h1_5, x0, t37);
+			_mm512_storeu_pd(sum + 264 + pass, acc33);
+			__m512d acc34 = _mm512_loadu_pd(sum + 272 + pass);
+			const __m512d t38 = _mm512_fmadd_pd(h1_5, y0, acc34);
+			acc34 = _mm512_fmadd_pd(h0_6, x0, t38);
+			_mm512_storeu_pd(sum + 272 + pass, acc34);
+			__m512d acc35 = _mm512_loadu_pd(sum + 280 + pass);
+			const __m512d t39 = _mm512_fmadd_pd(w0_6, y1, acc35);
+			acc35 = _mm512_fmadd_pd(h0_6, y0, t39);
+			_mm512_storeu_pd(sum + 280 + pass, acc35);
+			__m512d acc36 = _mm512_loadu_pd(sum + 288 + pass);
+			acc36 = _mm512_fmadd_pd(w5_1, x1, acc36);
+			_mm512_storeu_pd(sum + 288 + pass, acc36);
+			__m512d acc37 = _mm512_loadu_pd(sum + 296 + pass);
+			acc37 = _mm512_fmadd_pd(w4_2, x1, acc37);
+			_mm512_storeu_pd(sum + 296 + pass, acc37);
+			__m512d acc38 = _mm512_loadu_pd(sum + 304 + pass);
+			acc38 = _mm512_fmadd_pd(w3_3, x1, acc38);
+			_mm512_storeu_pd(sum + 304 + pass, acc38);
+			__m512d acc39 = _mm512_loadu_pd(sum + 312 + pass);
+			acc39 = _mm512_fmadd_pd(w2_4, x1, acc39);
+			_mm512_storeu_pd(sum + 312 + pass, acc39);
+			__m512d acc40 = _mm512_loadu_pd(sum + 320 + pass);
+			acc40 = _mm512_fmadd_pd(w1_5, x1, acc40);
+			_mm512_storeu_pd(sum + 320 + pass, acc40);
+			__m512d acc41 = _mm512_loadu_pd(sum + 328 + pass);
+			acc41 = _mm512_fmadd_pd(w0_6, x1, acc41);
+			_mm512_storeu_pd(sum + 328 + pass, acc41);
+		}
 	}
 }
 
 /* all moments of x^m y^n, m + n <= 8; scheme recurrence.
  * Cost per item: 139 mul or fma, 37 add; 52 accumulators, 22 values alive, depth 19. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_8_avx512(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 8) {
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			double pad[4][8];
-			const double *at_x0 = rest < 8
-				? ew_ring_pad(pad[0], x + i, rest, 8) : x + i;
-			const __m512d x0 = _mm512_loadu_pd(at_x0);
-			const double *at_y0 = rest < 8
-				? ew_ring_pad(pad[1], y + i, rest, 8) : y + i;
-			const __m512d y0 = _mm512_loadu_pd(at_y0);
-			const double *at_x1 = rest < 8
-				? ew_ring_pad(pad[2], x + i + 1, rest, 8) : x + i + 1;
-			const __m512d x1 = _mm512_loadu_pd(at_x1);
-			const double *at_y1 = rest < 8
-				? ew_ring_pad(pad[3], y + i + 1, rest, 8) : y + i + 1;
-			const __m512d y1 = _mm512_loadu_pd(at_y1);
-			const size_t rest_2 = count - i > 8 ? count - i - 8 : 0;
-			double pad_2[4][8];
-			const double *at_x0_2 = rest_2 < 8
-				? ew_ring_pad(pad_2[0], x + i + 8, rest_2, 8) : x + i + 8;
-			const __m512d x0_2 = _mm512_loadu_pd(at_x0_2);
-			const double *at_y0_2 = rest_2 < 8
-				? ew_ring_pad(pad_2[1], y + i + 8, rest_2, 8) : y + i + 8;
-			const __m512d y0_2 = _mm512_loadu_pd(at_y0_2);
-			const double *at_x1_2 = rest_2 < 8
-				? ew_ring_pad(pad_2[2], x + i + 9, rest_2, 8) : x + i + 9;
-			const __m512d x1_2 = _mm512_loadu_pd(at_x1_2);
-			const double *at_y1_2 = rest_2 < 8
-				? ew_ring_pad(pad_2[3], y + i + 9, rest_2, 8) : y + i + 9;
-			const __m512d y1_2 = _mm512_loadu_pd(at_y1_2);
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
+		size_t i = pass;
+		for (; i + step + 7 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const __m512d x0 = _mm512_loadu_pd(x + i);
+			const __m512d y0 = _mm512_loadu_pd(y + i);
+			const __m512d x1 = _mm512_loadu_pd(x + i + reach);
+			const __m512d y1 = _mm512_loadu_pd(y + i + reach);
+			const __m512d x0_2 = _mm512_loadu_pd(x + i + step);
+			const __m512d y0_2 = _mm512_loadu_pd(y + i + step);
+			const __m512d x1_2 = _mm512_loadu_pd(x + i + step + reach);
+			const __m512d y1_2 = _mm512_loadu_pd(y + i + step + reach);
 			const __m512d t0 = _mm512_mul_pd(x0, y1);
 			const __m512d t0_2 = _mm512_mul_pd(x0_2, y1_2);
 			const __m512d t1 = _mm512_mul_pd(x1, y0);
@@ -1775,6 +2445,295 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_8_avx512(
 			__m512d acc51 = _mm512_loadu_pd(sum + 408 + pass);
 			acc51 = _mm512_fmadd_pd(w0_7, x1, acc51);
 			acc51 = _mm512_fmadd_pd(w0_7_2, x1_2, acc51);
+			_mm512_storeu_pd(sum + 408 + pass, acc51);
+		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
+			const size_t rest = count - i;
+			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
+			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
+			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
+			const __m512d y1 = _mm512_maskz_loadu_pd(mask, y + i + reach);
+			const __m512d t0 = _mm512_mul_pd(x0, y1);
+			const __m512d t1 = _mm512_mul_pd(x1, y0);
+			const __m512d s = _mm512_sub_pd(t0, t1);
+			__m512d acc0 = _mm512_loadu_pd(sum + pass);
+			acc0 = _mm512_add_pd(acc0, s);
+			_mm512_storeu_pd(sum + pass, acc0);
+			const __m512d w1_0 = _mm512_mul_pd(s, x1);
+			const __m512d h1_0 = _mm512_fmadd_pd(s, x0, w1_0);
+			__m512d acc1 = _mm512_loadu_pd(sum + 8 + pass);
+			acc1 = _mm512_add_pd(acc1, h1_0);
+			_mm512_storeu_pd(sum + 8 + pass, acc1);
+			const __m512d w0_1 = _mm512_mul_pd(s, y1);
+			const __m512d h0_1 = _mm512_fmadd_pd(s, y0, w0_1);
+			__m512d acc2 = _mm512_loadu_pd(sum + 16 + pass);
+			acc2 = _mm512_add_pd(acc2, h0_1);
+			_mm512_storeu_pd(sum + 16 + pass, acc2);
+			const __m512d w2_0 = _mm512_mul_pd(w1_0, x1);
+			const __m512d h2_0 = _mm512_fmadd_pd(h1_0, x0, w2_0);
+			__m512d acc3 = _mm512_loadu_pd(sum + 24 + pass);
+			acc3 = _mm512_add_pd(acc3, h2_0);
+			_mm512_storeu_pd(sum + 24 + pass, acc3);
+			const __m512d w1_1 = _mm512_mul_pd(w0_1, x1);
+			const __m512d t2 = _mm512_mul_pd(_mm512_set1_pd(2.0), w1_1);
+			const __m512d t3 = _mm512_fmadd_pd(h1_0, y0, t2);
+			const __m512d h1_1 = _mm512_fmadd_pd(h0_1, x0, t3);
+			__m512d acc4 = _mm512_loadu_pd(sum + 32 + pass);
+			acc4 = _mm512_add_pd(acc4, h1_1);
+			_mm512_storeu_pd(sum + 32 + pass, acc4);
+			const __m512d w0_2 = _mm512_mul_pd(w0_1, y1);
+			const __m512d h0_2 = _mm512_fmadd_pd(h0_1, y0, w0_2);
+			__m512d acc5 = _mm512_loadu_pd(sum + 40 + pass);
+			acc5 = _mm512_add_pd(acc5, h0_2);
+			_mm512_storeu_pd(sum + 40 + pass, acc5);
+			const __m512d w3_0 = _mm512_mul_pd(w2_0, x1);
+			const __m512d h3_0 = _mm512_fmadd_pd(h2_0, x0, w3_0);
+			__m512d acc6 = _mm512_loadu_pd(sum + 48 + pass);
+			acc6 = _mm512_add_pd(acc6, h3_0);
+			_mm512_storeu_pd(sum + 48 + pass, acc6);
+			const __m512d w2_1 = _mm512_mul_pd(w1_1, x1);
+			const __m512d t4 = _mm512_mul_pd(_mm512_set1_pd(3.0), w2_1);
+			const __m512d t5 = _mm512_fmadd_pd(h2_0, y0, t4);
+			const __m512d h2_1 = _mm512_fmadd_pd(h1_1, x0, t5);
+			__m512d acc7 = _mm512_loadu_pd(sum + 56 + pass);
+			acc7 = _mm512_add_pd(acc7, h2_1);
+			_mm512_storeu_pd(sum + 56 + pass, acc7);
+			const __m512d w1_2 = _mm512_mul_pd(w0_2, x1);
+			const __m512d t6 = _mm512_mul_pd(_mm512_set1_pd(3.0), w1_2);
+			const __m512d t7 = _mm512_fmadd_pd(h1_1, y0, t6);
+			const __m512d h1_2 = _mm512_fmadd_pd(h0_2, x0, t7);
+			__m512d acc8 = _mm512_loadu_pd(sum + 64 + pass);
+			acc8 = _mm512_add_pd(acc8, h1_2);
+			_mm512_storeu_pd(sum + 64 + pass, acc8);
+			const __m512d w0_3 = _mm512_mul_pd(w0_2, y1);
+			const __m512d h0_3 = _mm512_fmadd_pd(h0_2, y0, w0_3);
+			__m512d acc9 = _mm512_loadu_pd(sum + 72 + pass);
+			acc9 = _mm512_add_pd(acc9, h0_3);
+			_mm512_storeu_pd(sum + 72 + pass, acc9);
+			const __m512d w4_0 = _mm512_mul_pd(w3_0, x1);
+			const __m512d h4_0 = _mm512_fmadd_pd(h3_0, x0, w4_0);
+			__m512d acc10 = _mm512_loadu_pd(sum + 80 + pass);
+			acc10 = _mm512_add_pd(acc10, h4_0);
+			_mm512_storeu_pd(sum + 80 + pass, acc10);
+			const __m512d w3_1 = _mm512_mul_pd(w2_1, x1);
+			const __m512d t8 = _mm512_mul_pd(_mm512_set1_pd(4.0), w3_1);
+			const __m512d t9 = _mm512_fmadd_pd(h3_0, y0, t8);
+			const __m512d h3_1 = _mm512_fmadd_pd(h2_1, x0, t9);
+			__m512d acc11 = _mm512_loadu_pd(sum + 88 + pass);
+			acc11 = _mm512_add_pd(acc11, h3_1);
+			_mm512_storeu_pd(sum + 88 + pass, acc11);
+			const __m512d w2_2 = _mm512_mul_pd(w1_2, x1);
+			const __m512d t10 = _mm512_mul_pd(_mm512_set1_pd(6.0), w2_2);
+			const __m512d t11 = _mm512_fmadd_pd(h2_1, y0, t10);
+			const __m512d h2_2 = _mm512_fmadd_pd(h1_2, x0, t11);
+			__m512d acc12 = _mm512_loadu_pd(sum + 96 + pass);
+			acc12 = _mm512_add_pd(acc12, h2_2);
+			_mm512_storeu_pd(sum + 96 + pass, acc12);
+			const __m512d w1_3 = _mm512_mul_pd(w0_3, x1);
+			const __m512d t12 = _mm512_mul_pd(_mm512_set1_pd(4.0), w1_3);
+			const __m512d t13 = _mm512_fmadd_pd(h1_2, y0, t12);
+			const __m512d h1_3 = _mm512_fmadd_pd(h0_3, x0, t13);
+			__m512d acc13 = _mm512_loadu_pd(sum + 104 + pass);
+			acc13 = _mm512_add_pd(acc13, h1_3);
+			_mm512_storeu_pd(sum + 104 + pass, acc13);
+			const __m512d w0_4 = _mm512_mul_pd(w0_3, y1);
+			const __m512d h0_4 = _mm512_fmadd_pd(h0_3, y0, w0_4);
+			__m512d acc14 = _mm512_loadu_pd(sum + 112 + pass);
+			acc14 = _mm512_add_pd(acc14, h0_4);
+			_mm512_storeu_pd(sum + 112 + pass, acc14);
+			const __m512d w5_0 = _mm512_mul_pd(w4_0, x1);
+			const __m512d h5_0 = _mm512_fmadd_pd(h4_0, x0, w5_0);
+			__m512d acc15 = _mm512_loadu_pd(sum + 120 + pass);
+			acc15 = _mm512_add_pd(acc15, h5_0);
+			_mm512_storeu_pd(sum + 120 + pass, acc15);
+			const __m512d w4_1 = _mm512_mul_pd(w3_1, x1);
+			const __m512d t14 = _mm512_mul_pd(_mm512_set1_pd(5.0), w4_1);
+			const __m512d t15 = _mm512_fmadd_pd(h4_0, y0, t14);
+			const __m512d h4_1 = _mm512_fmadd_pd(h3_1, x0, t15);
+			__m512d acc16 = _mm512_loadu_pd(sum + 128 + pass);
+			acc16 = _mm512_add_pd(acc16, h4_1);
+			_mm512_storeu_pd(sum + 128 + pass, acc16);
+			const __m512d w3_2 = _mm512_mul_pd(w2_2, x1);
+			const __m512d t16 = _mm512_mul_pd(_mm512_set1_pd(10.0), w3_2);
+			const __m512d t17 = _mm512_fmadd_pd(h3_1, y0, t16);
+			const __m512d h3_2 = _mm512_fmadd_pd(h2_2, x0, t17);
+			__m512d acc17 = _mm512_loadu_pd(sum + 136 + pass);
+			acc17 = _mm512_add_pd(acc17, h3_2);
+			_mm512_storeu_pd(sum + 136 + pass, acc17);
+			const __m512d w2_3 = _mm512_mul_pd(w1_3, x1);
+			const __m512d t18 = _mm512_mul_pd(_mm512_set1_pd(10.0), w2_3);
+			const __m512d t19 = _mm512_fmadd_pd(h2_2, y0, t18);
+			const __m512d h2_3 = _mm512_fmadd_pd(h1_3, x0, t19);
+			__m512d acc18 = _mm512_loadu_pd(sum + 144 + pass);
+			acc18 = _mm512_add_pd(acc18, h2_3);
+			_mm512_storeu_pd(sum + 144 + pass, acc18);
+			const __m512d w1_4 = _mm512_mul_pd(w0_4, x1);
+			const __m512d t20 = _mm512_mul_pd(_mm512_set1_pd(5.0), w1_4);
+			const __m512d t21 = _mm512_fmadd_pd(h1_3, y0, t20);
+			const __m512d h1_4 = _mm512_fmadd_pd(h0_4, x0, t21);
+			__m512d acc19 = _mm512_loadu_pd(sum + 152 + pass);
+			acc19 = _mm512_add_pd(acc19, h1_4);
+			_mm512_storeu_pd(sum + 152 + pass, acc19);
+			const __m512d w0_5 = _mm512_mul_pd(w0_4, y1);
+			const __m512d h0_5 = _mm512_fmadd_pd(h0_4, y0, w0_5);
+			__m512d acc20 = _mm512_loadu_pd(sum + 160 + pass);
+			acc20 = _mm512_add_pd(acc20, h0_5);
+			_mm512_storeu_pd(sum + 160 + pass, acc20);
+			const __m512d w6_0 = _mm512_mul_pd(w5_0, x1);
+			const __m512d h6_0 = _mm512_fmadd_pd(h5_0, x0, w6_0);
+			__m512d acc21 = _mm512_loadu_pd(sum + 168 + pass);
+			acc21 = _mm512_add_pd(acc21, h6_0);
+			_mm512_storeu_pd(sum + 168 + pass, acc21);
+			const __m512d w5_1 = _mm512_mul_pd(w4_1, x1);
+			const __m512d t22 = _mm512_mul_pd(_mm512_set1_pd(6.0), w5_1);
+			const __m512d t23 = _mm512_fmadd_pd(h5_0, y0, t22);
+			const __m512d h5_1 = _mm512_fmadd_pd(h4_1, x0, t23);
+			__m512d acc22 = _mm512_loadu_pd(sum + 176 + pass);
+			acc22 = _mm512_add_pd(acc22, h5_1);
+			_mm512_storeu_pd(sum + 176 + pass, acc22);
+			const __m512d w4_2 = _mm512_mul_pd(w3_2, x1);
+			const __m512d t24 = _mm512_mul_pd(_mm512_set1_pd(15.0), w4_2);
+			const __m512d t25 = _mm512_fmadd_pd(h4_1, y0, t24);
+			const __m512d h4_2 = _mm512_fmadd_pd(h3_2, x0, t25);
+			__m512d acc23 = _mm512_loadu_pd(sum + 184 + pass);
+			acc23 = _mm512_add_pd(acc23, h4_2);
+			_mm512_storeu_pd(sum + 184 + pass, acc23);
+			const __m512d w3_3 = _mm512_mul_pd(w2_3, x1);
+			const __m512d t26 = _mm512_mul_pd(_mm512_set1_pd(20.0), w3_3);
+			const __m512d t27 = _mm512_fmadd_pd(h3_2, y0, t26);
+			const __m512d h3_3 = _mm512_fmadd_pd(h2_3, x0, t27);
+			__m512d acc24 = _mm512_loadu_pd(sum + 192 + pass);
+			acc24 = _mm512_add_pd(acc24, h3_3);
+			_mm512_storeu_pd(sum + 192 + pass, acc24);
+			const __m512d w2_4 = _mm512_mul_pd(w1_4, x1);
+			const __m512d t28 = _mm512_mul_pd(_mm512_set1_pd(15.0), w2_4);
+			const __m512d t29 = _mm512_fmadd_pd(h2_3, y0, t28);
+			const __m512d h2_4 = _mm512_fmadd_pd(h1_4, x0, t29);
+			__m512d acc25 = _mm512_loadu_pd(sum + 200 + pass);
+			acc25 = _mm512_add_pd(acc25, h2_4);
+			_mm512_storeu_pd(sum + 200 + pass, acc25);
+			const __m512d w1_5 = _mm512_mul_pd(w0_5, x1);
+			const __m512d t30 = _mm512_mul_pd(_mm512_set1_pd(6.0), w1_5);
+			const __m512d t31 = _mm512_fmadd_pd(h1_4, y0, t30);
+			const __m512d h1_5 = _mm512_fmadd_pd(h0_5, x0, t31);
+			__m512d acc26 = _mm512_loadu_pd(sum + 208 + pass);
+			acc26 = _mm512_add_pd(acc26, h1_5);
+			_mm512_storeu_pd(sum + 208 + pass, acc26);
+			const __m512d w0_6 = _mm512_mul_pd(w0_5, y1);
+			const __m512d h0_6 = _mm512_fmadd_pd(h0_5, y0, w0_6);
+			__m512d acc27 = _mm512_loadu_pd(sum + 216 + pass);
+			acc27 = _mm512_add_pd(acc27, h0_6);
+			_mm512_storeu_pd(sum + 216 + pass, acc27);
+			const __m512d w7_0 = _mm512_mul_pd(w6_0, x1);
+			const __m512d h7_0 = _mm512_fmadd_pd(h6_0, x0, w7_0);
+			__m512d acc28 = _mm512_loadu_pd(sum + 224 + pass);
+			acc28 = _mm512_add_pd(acc28, h7_0);
+			_mm512_storeu_pd(sum + 224 + pass, acc28);
+			const __m512d w6_1 = _mm512_mul_pd(w5_1, x1);
+			const __m512d t32 = _mm512_mul_pd(_mm512_set1_pd(7.0), w6_1);
+			const __m512d t33 = _mm512_fmadd_pd(h6_0, y0, t32);
+			const __m512d h6_1 = _mm512_fmadd_pd(h5_1, x0, t33);
+			__m512d acc29 = _mm512_loadu_pd(sum + 232 + pass);
+			acc29 = _mm512_add_pd(acc29, h6_1);
+			_mm512_storeu_pd(sum + 232 + pass, acc29);
+			const __m512d w5_2 = _mm512_mul_pd(w4_2, x1);
+			const __m512d t34 = _mm512_mul_pd(_mm512_set1_pd(21.0), w5_2);
+			const __m512d t35 = _mm512_fmadd_pd(h5_1, y0, t34);
+			const __m512d h5_2 = _mm512_fmadd_pd(h4_2, x0, t35);
+			__m512d acc30 = _mm512_loadu_pd(sum + 240 + pass);
+			acc30 = _mm512_add_pd(acc30, h5_2);
+			_mm512_storeu_pd(sum + 240 + pass, acc30);
+			const __m512d w4_3 = _mm512_mul_pd(w3_3, x1);
+			const __m512d t36 = _mm512_mul_pd(_mm512_set1_pd(35.0), w4_3);
+			const __m512d t37 = _mm512_fmadd_pd(h4_2, y0, t36);
+			const __m512d h4_3 = _mm512_fmadd_pd(h3_3, x0, t37);
+			__m512d acc31 = _mm512_loadu_pd(sum + 248 + pass);
+			acc31 = _mm512_add_pd(acc31, h4_3);
+			_mm512_storeu_pd(sum + 248 + pass, acc31);
+			const __m512d w3_4 = _mm512_mul_pd(w2_4, x1);
+			const __m512d t38 = _mm512_mul_pd(_mm512_set1_pd(35.0), w3_4);
+			const __m512d t39 = _mm512_fmadd_pd(h3_3, y0, t38);
+			const __m512d h3_4 = _mm512_fmadd_pd(h2_4, x0, t39);
+			__m512d acc32 = _mm512_loadu_pd(sum + 256 + pass);
+			acc32 = _mm512_add_pd(acc32, h3_4);
+			_mm512_storeu_pd(sum + 256 + pass, acc32);
+			const __m512d w2_5 = _mm512_mul_pd(w1_5, x1);
+			const __m512d t40 = _mm512_mul_pd(_mm512_set1_pd(21.0), w2_5);
+			const __m512d t41 = _mm512_fmadd_pd(h2_4, y0, t40);
+			const __m512d h2_5 = _mm512_fmadd_pd(h1_5, x0, t41);
+			__m512d acc33 = _mm512_loadu_pd(sum + 264 + pass);
+			acc33 = _mm512_add_pd(acc33, h2_5);
+			_mm512_storeu_pd(sum + 264 + pass, acc33);
+			const __m512d w1_6 = _mm512_mul_pd(w0_6, x1);
+			const __m512d t42 = _mm512_mul_pd(_mm512_set1_pd(7.0), w1_6);
+			const __m512d t43 = _mm512_fmadd_pd(h1_5, y0, t42);
+			const __m512d h1_6 = _mm512_fmadd_pd(h0_6, x0, t43);
+			__m512d acc34 = _mm512_loadu_pd(sum + 272 + pass);
+			acc34 = _mm512_add_pd(acc34, h1_6);
+			_mm512_storeu_pd(sum + 272 + pass, acc34);
+			const __m512d w0_7 = _mm512_mul_pd(w0_6, y1);
+			const __m512d h0_7 = _mm512_fmadd_pd(h0_6, y0, w0_7);
+			__m512d acc35 = _mm512_loadu_pd(sum + 280 + pass);
+			acc35 = _mm512_add_pd(acc35, h0_7);
+			_mm512_storeu_pd(sum + 280 + pass, acc35);
+			__m512d acc36 = _mm512_loadu_pd(sum + 288 + pass);
+			const __m512d t44 = _mm512_fmadd_pd(w7_0, x1, acc36);
+			acc36 = _mm512_fmadd_pd(h7_0, x0, t44);
+			_mm512_storeu_pd(sum + 288 + pass, acc36);
+			__m512d acc37 = _mm512_loadu_pd(sum + 296 + pass);
+			const __m512d t45 = _mm512_fmadd_pd(h7_0, y0, acc37);
+			acc37 = _mm512_fmadd_pd(h6_1, x0, t45);
+			_mm512_storeu_pd(sum + 296 + pass, acc37);
+			__m512d acc38 = _mm512_loadu_pd(sum + 304 + pass);
+			const __m512d t46 = _mm512_fmadd_pd(h6_1, y0, acc38);
+			acc38 = _mm512_fmadd_pd(h5_2, x0, t46);
+			_mm512_storeu_pd(sum + 304 + pass, acc38);
+			__m512d acc39 = _mm512_loadu_pd(sum + 312 + pass);
+			const __m512d t47 = _mm512_fmadd_pd(h5_2, y0, acc39);
+			acc39 = _mm512_fmadd_pd(h4_3, x0, t47);
+			_mm512_storeu_pd(sum + 312 + pass, acc39);
+			__m512d acc40 = _mm512_loadu_pd(sum + 320 + pass);
+			const __m512d t48 = _mm512_fmadd_pd(h4_3, y0, acc40);
+			acc40 = _mm512_fmadd_pd(h3_4, x0, t48);
+			_mm512_storeu_pd(sum + 320 + pass, acc40);
+			__m512d acc41 = _mm512_loadu_pd(sum + 328 + pass);
+			const __m512d t49 = _mm512_fmadd_pd(h3_4, y0, acc41);
+			acc41 = _mm512_fmadd_pd(h2_5, x0, t49);
+			_mm512_storeu_pd(sum + 328 + pass, acc41);
+			__m512d acc42 = _mm512_loadu_pd(sum + 336 + pass);
+			const __m512d t50 = _mm512_fmadd_pd(h2_5, y0, acc42);
+			acc42 = _mm512_fmadd_pd(h1_6, x0, t50);
+			_mm512_storeu_pd(sum + 336 + pass, acc42);
+			__m512d acc43 = _mm512_loadu_pd(sum + 344 + pass);
+			const __m512d t51 = _mm512_fmadd_pd(h1_6, y0, acc43);
+			acc43 = _mm512_fmadd_pd(h0_7, x0, t51);
+			_mm512_storeu_pd(sum + 344 + pass, acc43);
+			__m512d acc44 = _mm512_loadu_pd(sum + 352 + pass);
+			const __m512d t52 = _mm512_fmadd_pd(w0_7, y1, acc44);
+			acc44 = _mm512_fmadd_pd(h0_7, y0, t52);
+			_mm512_storeu_pd(sum + 352 + pass, acc44);
+			__m512d acc45 = _mm512_loadu_pd(sum + 360 + pass);
+			acc45 = _mm512_fmadd_pd(w6_1, x1, acc45);
+			_mm512_storeu_pd(sum + 360 + pass, acc45);
+			__m512d acc46 = _mm512_loadu_pd(sum + 368 + pass);
+			acc46 = _mm512_fmadd_pd(w5_2, x1, acc46);
+			_mm512_storeu_pd(sum + 368 + pass, acc46);
+			__m512d acc47 = _mm512_loadu_pd(sum + 376 + pass);
+			acc47 = _mm512_fmadd_pd(w4_3, x1, acc47);
+			_mm512_storeu_pd(sum + 376 + pass, acc47);
+			__m512d acc48 = _mm512_loadu_pd(sum + 384 + pass);
+			acc48 = _mm512_fmadd_pd(w3_4, x1, acc48);
+			_mm512_storeu_pd(sum + 384 + pass, acc48);
+			__m512d acc49 = _mm512_loadu_pd(sum + 392 + pass);
+			acc49 = _mm512_fmadd_pd(w2_5, x1, acc49);
+			_mm512_storeu_pd(sum + 392 + pass, acc49);
+			__m512d acc50 = _mm512_loadu_pd(sum + 400 + pass);
+			acc50 = _mm512_fmadd_pd(w1_6, x1, acc50);
+			_mm512_storeu_pd(sum + 400 + pass, acc50);
+			__m512d acc51 = _mm512_loadu_pd(sum + 408 + pass);
+			acc51 = _mm512_fmadd_pd(w0_7, x1, acc51);
 			_mm512_storeu_pd(sum + 408 + pass, acc51);
 		}
 	}

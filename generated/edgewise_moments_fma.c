@@ -16,24 +16,26 @@
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_0_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
+		const double cx = origin[lane];
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += 2 * step) {
 			{
 				const double y0 = y[i];
-				const double x1 = x[i + 1];
-				const double y2 = y[i + 2];
+				const double x1 = x[i + reach];
+				const double y2 = y[i + 2 * reach];
 				const double width = x1 - cx;
 				const double height = y2 - y0;
 				acc0 = fma(width, height, acc0);
 			}
-			if (count - i > 8) {
-				const double y0 = y[i + 8];
-				const double x1 = x[i + 9];
-				const double y2 = y[i + 10];
+			if (count - i > step) {
+				const double y0 = y[i + step];
+				const double x1 = x[i + step + reach];
+				const double y2 = y[i + step + 2 * reach];
 				const double width = x1 - cx;
 				const double height = y2 - y0;
 				acc1 = fma(width, height, acc1);
@@ -47,18 +49,19 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_0_fma(
 /* all moments of x^m y^n, m + n <= 1; scheme even-power.
  * Cost per item: 4 mul or fma, 4 add; 3 accumulators, 7 values alive, depth 3. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_1_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -77,21 +80,22 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_1_fma(
 /* all moments of x^m y^n, m + n <= 2; scheme shared.
  * Cost per item: 12 mul or fma, 6 add; 6 accumulators, 10 values alive, depth 4. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_2_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
 		double acc3 = sum[24 + lane];
 		double acc4 = sum[32 + lane];
 		double acc5 = sum[40 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -123,10 +127,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_2_fma(
 /* all moments of x^m y^n, m + n <= 3; scheme even-power.
  * Cost per item: 18 mul or fma, 14 add; 15 accumulators, 11 values alive, depth 6. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_3_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
@@ -142,11 +147,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_3_fma(
 		double acc12 = sum[96 + lane];
 		double acc13 = sum[104 + lane];
 		double acc14 = sum[112 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -201,10 +206,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_3_fma(
 /* all moments of x^m y^n, m + n <= 4; scheme even-power.
  * Cost per item: 33 mul or fma, 12 add; 26 accumulators, 15 values alive, depth 5. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_4_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
@@ -231,11 +237,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_4_fma(
 		double acc23 = sum[184 + lane];
 		double acc24 = sum[192 + lane];
 		double acc25 = sum[200 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -314,10 +320,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_4_fma(
 /* all moments of x^m y^n, m + n <= 5; scheme recurrence.
  * Cost per item: 58 mul or fma, 16 add; 25 accumulators, 16 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_5_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
@@ -343,11 +350,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_5_fma(
 		double acc22 = sum[176 + lane];
 		double acc23 = sum[184 + lane];
 		double acc24 = sum[192 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -454,10 +461,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_5_fma(
 /* all moments of x^m y^n, m + n <= 6; scheme recurrence.
  * Cost per item: 81 mul or fma, 22 add; 33 accumulators, 18 values alive, depth 15. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_6_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
@@ -491,11 +499,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_6_fma(
 		double acc30 = sum[240 + lane];
 		double acc31 = sum[248 + lane];
 		double acc32 = sum[256 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -639,10 +647,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_6_fma(
 /* all moments of x^m y^n, m + n <= 7; scheme recurrence.
  * Cost per item: 108 mul or fma, 29 add; 42 accumulators, 20 values alive, depth 17. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_7_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
@@ -685,11 +694,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_7_fma(
 		double acc39 = sum[312 + lane];
 		double acc40 = sum[320 + lane];
 		double acc41 = sum[328 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -876,10 +885,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_7_fma(
 /* all moments of x^m y^n, m + n <= 8; scheme recurrence.
  * Cost per item: 139 mul or fma, 37 add; 52 accumulators, 22 values alive, depth 19. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_8_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
@@ -932,11 +942,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_8_fma(
 		double acc49 = sum[392 + lane];
 		double acc50 = sum[400 + lane];
 		double acc51 = sum[408 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;

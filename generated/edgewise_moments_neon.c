@@ -16,40 +16,56 @@
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_0_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	const float64x2_t cx = vdupq_n_f64(origin);
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
+		const float64x2_t cx = vld1q_f64(origin + pass);
 		float64x2_t acc0 = vld1q_f64(sum + pass);
 		float64x2_t acc1 = vld1q_f64(sum + 8 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + step + 1 < count; i += 2 * step) {
+			{
+				const float64x2_t y0 = vld1q_f64(y + i);
+				const float64x2_t x1 = vld1q_f64(x + i + reach);
+				const float64x2_t y2 = vld1q_f64(y + i + 2 * reach);
+				const float64x2_t width = vsubq_f64(x1, cx);
+				const float64x2_t height = vsubq_f64(y2, y0);
+				acc0 = vfmaq_f64(acc0, width, height);
+			}
+			{
+				const float64x2_t y0 = vld1q_f64(y + i + step);
+				const float64x2_t x1 = vld1q_f64(x + i + step + reach);
+				const float64x2_t y2 = vld1q_f64(y + i + step + 2 * reach);
+				const float64x2_t width = vsubq_f64(x1, cx);
+				const float64x2_t height = vsubq_f64(y2, y0);
+				acc1 = vfmaq_f64(acc1, width, height);
+			}
+		}
+		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
 				double pad[4][2];
-				const double *at_y0 = rest < 2
-					? ew_ring_pad(pad[0], y + i, rest, 2) : y + i;
+				int at = 0;
+				const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 				const float64x2_t y0 = vld1q_f64(at_y0);
-				const double *at_x1 = rest < 2
-					? ew_ring_pad(pad[1], x + i + 1, rest, 2) : x + i + 1;
+				const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 				const float64x2_t x1 = vld1q_f64(at_x1);
-				const double *at_y2 = rest < 2
-					? ew_ring_pad(pad[2], y + i + 2, rest, 2) : y + i + 2;
+				const double *at_y2 = ew_ring_pad(pad[at++], y + i + 2 * reach, rest, 2);
 				const float64x2_t y2 = vld1q_f64(at_y2);
 				const float64x2_t width = vsubq_f64(x1, cx);
 				const float64x2_t height = vsubq_f64(y2, y0);
 				acc0 = vfmaq_f64(acc0, width, height);
 			}
 			{
-				const size_t rest = count - i > 8 ? count - i - 8 : 0;
+				const size_t rest = count - i > step ? count - i - step : 0;
 				double pad[4][2];
-				const double *at_y0 = rest < 2
-					? ew_ring_pad(pad[0], y + i + 8, rest, 2) : y + i + 8;
+				int at = 0;
+				const double *at_y0 = ew_ring_pad(pad[at++], y + i + step, rest, 2);
 				const float64x2_t y0 = vld1q_f64(at_y0);
-				const double *at_x1 = rest < 2
-					? ew_ring_pad(pad[1], x + i + 9, rest, 2) : x + i + 9;
+				const double *at_x1 = ew_ring_pad(pad[at++], x + i + step + reach, rest, 2);
 				const float64x2_t x1 = vld1q_f64(at_x1);
-				const double *at_y2 = rest < 2
-					? ew_ring_pad(pad[2], y + i + 10, rest, 2) : y + i + 10;
+				const double *at_y2 = ew_ring_pad(pad[at++], y + i + step + 2 * reach, rest, 2);
 				const float64x2_t y2 = vld1q_f64(at_y2);
 				const float64x2_t width = vsubq_f64(x1, cx);
 				const float64x2_t height = vsubq_f64(y2, y0);
@@ -64,27 +80,40 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_0_neon(
 /* all moments of x^m y^n, m + n <= 1; scheme even-power.
  * Cost per item: 4 mul or fma, 4 add; 3 accumulators, 7 values alive, depth 3. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_1_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
 		float64x2_t acc1 = vld1q_f64(sum + 8 + pass);
 		float64x2_t acc2 = vld1q_f64(sum + 16 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			acc0 = vaddq_f64(acc0, s);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			acc1 = vfmaq_f64(acc1, s, a);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			acc2 = vfmaq_f64(acc2, s, b);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -104,30 +133,53 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_1_neon(
 /* all moments of x^m y^n, m + n <= 2; scheme shared.
  * Cost per item: 12 mul or fma, 6 add; 6 accumulators, 10 values alive, depth 4. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_2_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
 		float64x2_t acc1 = vld1q_f64(sum + 8 + pass);
 		float64x2_t acc2 = vld1q_f64(sum + 16 + pass);
 		float64x2_t acc3 = vld1q_f64(sum + 24 + pass);
 		float64x2_t acc4 = vld1q_f64(sum + 32 + pass);
 		float64x2_t acc5 = vld1q_f64(sum + 40 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			acc0 = vaddq_f64(acc0, s);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			acc1 = vfmaq_f64(acc1, s, a);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			acc2 = vfmaq_f64(acc2, s, b);
+			const float64x2_t t2 = vmulq_f64(x1, x1);
+			const float64x2_t xx = vfmaq_f64(t2, a, x0);
+			acc3 = vfmaq_f64(acc3, s, xx);
+			const float64x2_t t3 = vaddq_f64(a, a);
+			const float64x2_t t4 = vaddq_f64(t0, t1);
+			const float64x2_t xy = vfmaq_f64(vnegq_f64(t4), b, t3);
+			acc4 = vfmaq_f64(acc4, s, xy);
+			const float64x2_t t5 = vmulq_f64(y1, y1);
+			const float64x2_t yy = vfmaq_f64(t5, b, y0);
+			acc5 = vfmaq_f64(acc5, s, yy);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -160,10 +212,11 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_2_neon(
 /* all moments of x^m y^n, m + n <= 3; scheme even-power.
  * Cost per item: 18 mul or fma, 14 add; 15 accumulators, 11 values alive, depth 6. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_3_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
 		float64x2_t acc1 = vld1q_f64(sum + 8 + pass);
 		float64x2_t acc2 = vld1q_f64(sum + 16 + pass);
@@ -179,20 +232,56 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_3_neon(
 		float64x2_t acc12 = vld1q_f64(sum + 96 + pass);
 		float64x2_t acc13 = vld1q_f64(sum + 104 + pass);
 		float64x2_t acc14 = vld1q_f64(sum + 112 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			acc0 = vaddq_f64(acc0, s);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			const float64x2_t t2 = vmulq_f64(s, a);
+			acc1 = vaddq_f64(acc1, t2);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			const float64x2_t t3 = vmulq_f64(s, b);
+			acc2 = vaddq_f64(acc2, t3);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t t4 = vmulq_f64(s, e);
+			const float64x2_t qxx = vmulq_f64(e, t4);
+			const float64x2_t txx = vfmaq_f64(qxx, a, t2);
+			acc3 = vaddq_f64(acc3, txx);
+			acc4 = vaddq_f64(acc4, qxx);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t qxy = vmulq_f64(f, t4);
+			const float64x2_t txy = vfmaq_f64(qxy, b, t2);
+			acc5 = vaddq_f64(acc5, txy);
+			acc6 = vaddq_f64(acc6, qxy);
+			const float64x2_t t5 = vmulq_f64(s, f);
+			const float64x2_t qyy = vmulq_f64(f, t5);
+			const float64x2_t tyy = vfmaq_f64(qyy, b, t3);
+			acc7 = vaddq_f64(acc7, tyy);
+			acc8 = vaddq_f64(acc8, qyy);
+			acc9 = vfmaq_f64(acc9, a, txx);
+			acc10 = vfmaq_f64(acc10, b, txx);
+			acc11 = vfmaq_f64(acc11, a, txy);
+			acc12 = vfmaq_f64(acc12, b, txy);
+			acc13 = vfmaq_f64(acc13, a, tyy);
+			acc14 = vfmaq_f64(acc14, b, tyy);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -248,10 +337,11 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_3_neon(
 /* all moments of x^m y^n, m + n <= 4; scheme even-power.
  * Cost per item: 33 mul or fma, 12 add; 26 accumulators, 15 values alive, depth 5. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_4_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
 		float64x2_t acc0 = vld1q_f64(sum + pass);
 		float64x2_t acc1 = vld1q_f64(sum + 8 + pass);
 		float64x2_t acc2 = vld1q_f64(sum + 16 + pass);
@@ -278,20 +368,69 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_4_neon(
 		float64x2_t acc23 = vld1q_f64(sum + 184 + pass);
 		float64x2_t acc24 = vld1q_f64(sum + 192 + pass);
 		float64x2_t acc25 = vld1q_f64(sum + 200 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+		size_t i = pass;
+		for (; i + 1 < count; i += step) {
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			acc0 = vaddq_f64(acc0, s);
+			const float64x2_t a = vaddq_f64(x0, x1);
+			acc1 = vfmaq_f64(acc1, s, a);
+			const float64x2_t b = vaddq_f64(y0, y1);
+			acc2 = vfmaq_f64(acc2, s, b);
+			const float64x2_t e = vsubq_f64(x1, x0);
+			const float64x2_t ee = vmulq_f64(e, e);
+			const float64x2_t rxx = vfmaq_f64(ee, a, a);
+			const float64x2_t txx = vmulq_f64(s, rxx);
+			acc3 = vaddq_f64(acc3, txx);
+			const float64x2_t qxx = vmulq_f64(s, ee);
+			acc4 = vaddq_f64(acc4, qxx);
+			const float64x2_t f = vsubq_f64(y1, y0);
+			const float64x2_t ef = vmulq_f64(e, f);
+			const float64x2_t rxy = vfmaq_f64(ef, a, b);
+			const float64x2_t txy = vmulq_f64(s, rxy);
+			acc5 = vaddq_f64(acc5, txy);
+			const float64x2_t qxy = vmulq_f64(s, ef);
+			acc6 = vaddq_f64(acc6, qxy);
+			const float64x2_t ff = vmulq_f64(f, f);
+			const float64x2_t ryy = vfmaq_f64(ff, b, b);
+			const float64x2_t tyy = vmulq_f64(s, ryy);
+			acc7 = vaddq_f64(acc7, tyy);
+			const float64x2_t qyy = vmulq_f64(s, ff);
+			acc8 = vaddq_f64(acc8, qyy);
+			acc9 = vfmaq_f64(acc9, a, txx);
+			acc10 = vfmaq_f64(acc10, b, txx);
+			acc11 = vfmaq_f64(acc11, a, txy);
+			acc12 = vfmaq_f64(acc12, b, txy);
+			acc13 = vfmaq_f64(acc13, a, tyy);
+			acc14 = vfmaq_f64(acc14, b, tyy);
+			acc15 = vfmaq_f64(acc15, rxx, txx);
+			acc16 = vfmaq_f64(acc16, txx, rxy);
+			acc17 = vfmaq_f64(acc17, txx, ryy);
+			acc18 = vfmaq_f64(acc18, rxy, txy);
+			acc19 = vfmaq_f64(acc19, txy, ryy);
+			acc20 = vfmaq_f64(acc20, ryy, tyy);
+			acc21 = vfmaq_f64(acc21, ee, qxx);
+			acc22 = vfmaq_f64(acc22, qxx, ef);
+			acc23 = vfmaq_f64(acc23, qxx, ff);
+			acc24 = vfmaq_f64(acc24, qxy, ff);
+			acc25 = vfmaq_f64(acc25, ff, qyy);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -371,189 +510,381 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_4_neon(
 /* all moments of x^m y^n, m + n <= 5; scheme recurrence.
  * Cost per item: 58 mul or fma, 16 add; 25 accumulators, 16 values alive, depth 13. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_5_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
-		float64x2_t acc0 = vld1q_f64(sum + pass);
-		float64x2_t acc1 = vld1q_f64(sum + 8 + pass);
-		float64x2_t acc2 = vld1q_f64(sum + 16 + pass);
-		float64x2_t acc3 = vld1q_f64(sum + 24 + pass);
-		float64x2_t acc4 = vld1q_f64(sum + 32 + pass);
-		float64x2_t acc5 = vld1q_f64(sum + 40 + pass);
-		float64x2_t acc6 = vld1q_f64(sum + 48 + pass);
-		float64x2_t acc7 = vld1q_f64(sum + 56 + pass);
-		float64x2_t acc8 = vld1q_f64(sum + 64 + pass);
-		float64x2_t acc9 = vld1q_f64(sum + 72 + pass);
-		float64x2_t acc10 = vld1q_f64(sum + 80 + pass);
-		float64x2_t acc11 = vld1q_f64(sum + 88 + pass);
-		float64x2_t acc12 = vld1q_f64(sum + 96 + pass);
-		float64x2_t acc13 = vld1q_f64(sum + 104 + pass);
-		float64x2_t acc14 = vld1q_f64(sum + 112 + pass);
-		float64x2_t acc15 = vld1q_f64(sum + 120 + pass);
-		float64x2_t acc16 = vld1q_f64(sum + 128 + pass);
-		float64x2_t acc17 = vld1q_f64(sum + 136 + pass);
-		float64x2_t acc18 = vld1q_f64(sum + 144 + pass);
-		float64x2_t acc19 = vld1q_f64(sum + 152 + pass);
-		float64x2_t acc20 = vld1q_f64(sum + 160 + pass);
-		float64x2_t acc21 = vld1q_f64(sum + 168 + pass);
-		float64x2_t acc22 = vld1q_f64(sum + 176 + pass);
-		float64x2_t acc23 = vld1q_f64(sum + 184 + pass);
-		float64x2_t acc24 = vld1q_f64(sum + 192 + pass);
-		for (size_t i = pass; i < count; i += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
+		size_t i = pass;
+		for (; i + step + 1 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t x0_2 = vld1q_f64(x + i + step);
+			const float64x2_t y0_2 = vld1q_f64(y + i + step);
+			const float64x2_t x1_2 = vld1q_f64(x + i + step + reach);
+			const float64x2_t y1_2 = vld1q_f64(y + i + step + reach);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t0_2 = vmulq_f64(x0_2, y1_2);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t t1_2 = vmulq_f64(x1_2, y0_2);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			const float64x2_t s_2 = vsubq_f64(t0_2, t1_2);
+			float64x2_t acc0 = vld1q_f64(sum + pass);
+			acc0 = vaddq_f64(acc0, s);
+			acc0 = vaddq_f64(acc0, s_2);
+			vst1q_f64(sum + pass, acc0);
+			const float64x2_t w1_0 = vmulq_f64(s, x1);
+			const float64x2_t w1_0_2 = vmulq_f64(s_2, x1_2);
+			const float64x2_t h1_0 = vfmaq_f64(w1_0, s, x0);
+			const float64x2_t h1_0_2 = vfmaq_f64(w1_0_2, s_2, x0_2);
+			float64x2_t acc1 = vld1q_f64(sum + 8 + pass);
+			acc1 = vaddq_f64(acc1, h1_0);
+			acc1 = vaddq_f64(acc1, h1_0_2);
+			vst1q_f64(sum + 8 + pass, acc1);
+			const float64x2_t w0_1 = vmulq_f64(s, y1);
+			const float64x2_t w0_1_2 = vmulq_f64(s_2, y1_2);
+			const float64x2_t h0_1 = vfmaq_f64(w0_1, s, y0);
+			const float64x2_t h0_1_2 = vfmaq_f64(w0_1_2, s_2, y0_2);
+			float64x2_t acc2 = vld1q_f64(sum + 16 + pass);
+			acc2 = vaddq_f64(acc2, h0_1);
+			acc2 = vaddq_f64(acc2, h0_1_2);
+			vst1q_f64(sum + 16 + pass, acc2);
+			const float64x2_t w2_0 = vmulq_f64(w1_0, x1);
+			const float64x2_t w2_0_2 = vmulq_f64(w1_0_2, x1_2);
+			const float64x2_t h2_0 = vfmaq_f64(w2_0, h1_0, x0);
+			const float64x2_t h2_0_2 = vfmaq_f64(w2_0_2, h1_0_2, x0_2);
+			float64x2_t acc3 = vld1q_f64(sum + 24 + pass);
+			acc3 = vaddq_f64(acc3, h2_0);
+			acc3 = vaddq_f64(acc3, h2_0_2);
+			vst1q_f64(sum + 24 + pass, acc3);
+			const float64x2_t w1_1 = vmulq_f64(w0_1, x1);
+			const float64x2_t w1_1_2 = vmulq_f64(w0_1_2, x1_2);
+			const float64x2_t t2 = vmulq_f64(vdupq_n_f64(2.0), w1_1);
+			const float64x2_t t2_2 = vmulq_f64(vdupq_n_f64(2.0), w1_1_2);
+			const float64x2_t t3 = vfmaq_f64(t2, h1_0, y0);
+			const float64x2_t t3_2 = vfmaq_f64(t2_2, h1_0_2, y0_2);
+			const float64x2_t h1_1 = vfmaq_f64(t3, h0_1, x0);
+			const float64x2_t h1_1_2 = vfmaq_f64(t3_2, h0_1_2, x0_2);
+			float64x2_t acc4 = vld1q_f64(sum + 32 + pass);
+			acc4 = vaddq_f64(acc4, h1_1);
+			acc4 = vaddq_f64(acc4, h1_1_2);
+			vst1q_f64(sum + 32 + pass, acc4);
+			const float64x2_t w0_2 = vmulq_f64(w0_1, y1);
+			const float64x2_t w0_2_2 = vmulq_f64(w0_1_2, y1_2);
+			const float64x2_t h0_2 = vfmaq_f64(w0_2, h0_1, y0);
+			const float64x2_t h0_2_2 = vfmaq_f64(w0_2_2, h0_1_2, y0_2);
+			float64x2_t acc5 = vld1q_f64(sum + 40 + pass);
+			acc5 = vaddq_f64(acc5, h0_2);
+			acc5 = vaddq_f64(acc5, h0_2_2);
+			vst1q_f64(sum + 40 + pass, acc5);
+			const float64x2_t w3_0 = vmulq_f64(w2_0, x1);
+			const float64x2_t w3_0_2 = vmulq_f64(w2_0_2, x1_2);
+			const float64x2_t h3_0 = vfmaq_f64(w3_0, h2_0, x0);
+			const float64x2_t h3_0_2 = vfmaq_f64(w3_0_2, h2_0_2, x0_2);
+			float64x2_t acc6 = vld1q_f64(sum + 48 + pass);
+			acc6 = vaddq_f64(acc6, h3_0);
+			acc6 = vaddq_f64(acc6, h3_0_2);
+			vst1q_f64(sum + 48 + pass, acc6);
+			const float64x2_t w2_1 = vmulq_f64(w1_1, x1);
+			const float64x2_t w2_1_2 = vmulq_f64(w1_1_2, x1_2);
+			const float64x2_t t4 = vmulq_f64(vdupq_n_f64(3.0), w2_1);
+			const float64x2_t t4_2 = vmulq_f64(vdupq_n_f64(3.0), w2_1_2);
+			const float64x2_t t5 = vfmaq_f64(t4, h2_0, y0);
+			const float64x2_t t5_2 = vfmaq_f64(t4_2, h2_0_2, y0_2);
+			const float64x2_t h2_1 = vfmaq_f64(t5, h1_1, x0);
+			const float64x2_t h2_1_2 = vfmaq_f64(t5_2, h1_1_2, x0_2);
+			float64x2_t acc7 = vld1q_f64(sum + 56 + pass);
+			acc7 = vaddq_f64(acc7, h2_1);
+			acc7 = vaddq_f64(acc7, h2_1_2);
+			vst1q_f64(sum + 56 + pass, acc7);
+			const float64x2_t w1_2 = vmulq_f64(w0_2, x1);
+			const float64x2_t w1_2_2 = vmulq_f64(w0_2_2, x1_2);
+			const float64x2_t t6 = vmulq_f64(vdupq_n_f64(3.0), w1_2);
+			const float64x2_t t6_2 = vmulq_f64(vdupq_n_f64(3.0), w1_2_2);
+			const float64x2_t t7 = vfmaq_f64(t6, h1_1, y0);
+			const float64x2_t t7_2 = vfmaq_f64(t6_2, h1_1_2, y0_2);
+			const float64x2_t h1_2 = vfmaq_f64(t7, h0_2, x0);
+			const float64x2_t h1_2_2 = vfmaq_f64(t7_2, h0_2_2, x0_2);
+			float64x2_t acc8 = vld1q_f64(sum + 64 + pass);
+			acc8 = vaddq_f64(acc8, h1_2);
+			acc8 = vaddq_f64(acc8, h1_2_2);
+			vst1q_f64(sum + 64 + pass, acc8);
+			const float64x2_t w0_3 = vmulq_f64(w0_2, y1);
+			const float64x2_t w0_3_2 = vmulq_f64(w0_2_2, y1_2);
+			const float64x2_t h0_3 = vfmaq_f64(w0_3, h0_2, y0);
+			const float64x2_t h0_3_2 = vfmaq_f64(w0_3_2, h0_2_2, y0_2);
+			float64x2_t acc9 = vld1q_f64(sum + 72 + pass);
+			acc9 = vaddq_f64(acc9, h0_3);
+			acc9 = vaddq_f64(acc9, h0_3_2);
+			vst1q_f64(sum + 72 + pass, acc9);
+			const float64x2_t w4_0 = vmulq_f64(w3_0, x1);
+			const float64x2_t w4_0_2 = vmulq_f64(w3_0_2, x1_2);
+			const float64x2_t h4_0 = vfmaq_f64(w4_0, h3_0, x0);
+			const float64x2_t h4_0_2 = vfmaq_f64(w4_0_2, h3_0_2, x0_2);
+			float64x2_t acc10 = vld1q_f64(sum + 80 + pass);
+			acc10 = vaddq_f64(acc10, h4_0);
+			acc10 = vaddq_f64(acc10, h4_0_2);
+			vst1q_f64(sum + 80 + pass, acc10);
+			const float64x2_t w3_1 = vmulq_f64(w2_1, x1);
+			const float64x2_t w3_1_2 = vmulq_f64(w2_1_2, x1_2);
+			const float64x2_t t8 = vmulq_f64(vdupq_n_f64(4.0), w3_1);
+			const float64x2_t t8_2 = vmulq_f64(vdupq_n_f64(4.0), w3_1_2);
+			const float64x2_t t9 = vfmaq_f64(t8, h3_0, y0);
+			const float64x2_t t9_2 = vfmaq_f64(t8_2, h3_0_2, y0_2);
+			const float64x2_t h3_1 = vfmaq_f64(t9, h2_1, x0);
+			const float64x2_t h3_1_2 = vfmaq_f64(t9_2, h2_1_2, x0_2);
+			float64x2_t acc11 = vld1q_f64(sum + 88 + pass);
+			acc11 = vaddq_f64(acc11, h3_1);
+			acc11 = vaddq_f64(acc11, h3_1_2);
+			vst1q_f64(sum + 88 + pass, acc11);
+			const float64x2_t w2_2 = vmulq_f64(w1_2, x1);
+			const float64x2_t w2_2_2 = vmulq_f64(w1_2_2, x1_2);
+			const float64x2_t t10 = vmulq_f64(vdupq_n_f64(6.0), w2_2);
+			const float64x2_t t10_2 = vmulq_f64(vdupq_n_f64(6.0), w2_2_2);
+			const float64x2_t t11 = vfmaq_f64(t10, h2_1, y0);
+			const float64x2_t t11_2 = vfmaq_f64(t10_2, h2_1_2, y0_2);
+			const float64x2_t h2_2 = vfmaq_f64(t11, h1_2, x0);
+			const float64x2_t h2_2_2 = vfmaq_f64(t11_2, h1_2_2, x0_2);
+			float64x2_t acc12 = vld1q_f64(sum + 96 + pass);
+			acc12 = vaddq_f64(acc12, h2_2);
+			acc12 = vaddq_f64(acc12, h2_2_2);
+			vst1q_f64(sum + 96 + pass, acc12);
+			const float64x2_t w1_3 = vmulq_f64(w0_3, x1);
+			const float64x2_t w1_3_2 = vmulq_f64(w0_3_2, x1_2);
+			const float64x2_t t12 = vmulq_f64(vdupq_n_f64(4.0), w1_3);
+			const float64x2_t t12_2 = vmulq_f64(vdupq_n_f64(4.0), w1_3_2);
+			const float64x2_t t13 = vfmaq_f64(t12, h1_2, y0);
+			const float64x2_t t13_2 = vfmaq_f64(t12_2, h1_2_2, y0_2);
+			const float64x2_t h1_3 = vfmaq_f64(t13, h0_3, x0);
+			const float64x2_t h1_3_2 = vfmaq_f64(t13_2, h0_3_2, x0_2);
+			float64x2_t acc13 = vld1q_f64(sum + 104 + pass);
+			acc13 = vaddq_f64(acc13, h1_3);
+			acc13 = vaddq_f64(acc13, h1_3_2);
+			vst1q_f64(sum + 104 + pass, acc13);
+			const float64x2_t w0_4 = vmulq_f64(w0_3, y1);
+			const float64x2_t w0_4_2 = vmulq_f64(w0_3_2, y1_2);
+			const float64x2_t h0_4 = vfmaq_f64(w0_4, h0_3, y0);
+			const float64x2_t h0_4_2 = vfmaq_f64(w0_4_2, h0_3_2, y0_2);
+			float64x2_t acc14 = vld1q_f64(sum + 112 + pass);
+			acc14 = vaddq_f64(acc14, h0_4);
+			acc14 = vaddq_f64(acc14, h0_4_2);
+			vst1q_f64(sum + 112 + pass, acc14);
+			float64x2_t acc15 = vld1q_f64(sum + 120 + pass);
+			const float64x2_t t14 = vfmaq_f64(acc15, w4_0, x1);
+			acc15 = vfmaq_f64(t14, h4_0, x0);
+			const float64x2_t t14_2 = vfmaq_f64(acc15, w4_0_2, x1_2);
+			acc15 = vfmaq_f64(t14_2, h4_0_2, x0_2);
+			vst1q_f64(sum + 120 + pass, acc15);
+			float64x2_t acc16 = vld1q_f64(sum + 128 + pass);
+			const float64x2_t t15 = vfmaq_f64(acc16, h4_0, y0);
+			acc16 = vfmaq_f64(t15, h3_1, x0);
+			const float64x2_t t15_2 = vfmaq_f64(acc16, h4_0_2, y0_2);
+			acc16 = vfmaq_f64(t15_2, h3_1_2, x0_2);
+			vst1q_f64(sum + 128 + pass, acc16);
+			float64x2_t acc17 = vld1q_f64(sum + 136 + pass);
+			const float64x2_t t16 = vfmaq_f64(acc17, h3_1, y0);
+			acc17 = vfmaq_f64(t16, h2_2, x0);
+			const float64x2_t t16_2 = vfmaq_f64(acc17, h3_1_2, y0_2);
+			acc17 = vfmaq_f64(t16_2, h2_2_2, x0_2);
+			vst1q_f64(sum + 136 + pass, acc17);
+			float64x2_t acc18 = vld1q_f64(sum + 144 + pass);
+			const float64x2_t t17 = vfmaq_f64(acc18, h2_2, y0);
+			acc18 = vfmaq_f64(t17, h1_3, x0);
+			const float64x2_t t17_2 = vfmaq_f64(acc18, h2_2_2, y0_2);
+			acc18 = vfmaq_f64(t17_2, h1_3_2, x0_2);
+			vst1q_f64(sum + 144 + pass, acc18);
+			float64x2_t acc19 = vld1q_f64(sum + 152 + pass);
+			const float64x2_t t18 = vfmaq_f64(acc19, h1_3, y0);
+			acc19 = vfmaq_f64(t18, h0_4, x0);
+			const float64x2_t t18_2 = vfmaq_f64(acc19, h1_3_2, y0_2);
+			acc19 = vfmaq_f64(t18_2, h0_4_2, x0_2);
+			vst1q_f64(sum + 152 + pass, acc19);
+			float64x2_t acc20 = vld1q_f64(sum + 160 + pass);
+			const float64x2_t t19 = vfmaq_f64(acc20, w0_4, y1);
+			acc20 = vfmaq_f64(t19, h0_4, y0);
+			const float64x2_t t19_2 = vfmaq_f64(acc20, w0_4_2, y1_2);
+			acc20 = vfmaq_f64(t19_2, h0_4_2, y0_2);
+			vst1q_f64(sum + 160 + pass, acc20);
+			float64x2_t acc21 = vld1q_f64(sum + 168 + pass);
+			acc21 = vfmaq_f64(acc21, w3_1, x1);
+			acc21 = vfmaq_f64(acc21, w3_1_2, x1_2);
+			vst1q_f64(sum + 168 + pass, acc21);
+			float64x2_t acc22 = vld1q_f64(sum + 176 + pass);
+			acc22 = vfmaq_f64(acc22, w2_2, x1);
+			acc22 = vfmaq_f64(acc22, w2_2_2, x1_2);
+			vst1q_f64(sum + 176 + pass, acc22);
+			float64x2_t acc23 = vld1q_f64(sum + 184 + pass);
+			acc23 = vfmaq_f64(acc23, w1_3, x1);
+			acc23 = vfmaq_f64(acc23, w1_3_2, x1_2);
+			vst1q_f64(sum + 184 + pass, acc23);
+			float64x2_t acc24 = vld1q_f64(sum + 192 + pass);
+			acc24 = vfmaq_f64(acc24, w0_4, x1);
+			acc24 = vfmaq_f64(acc24, w0_4_2, x1_2);
+			vst1q_f64(sum + 192 + pass, acc24);
+		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
 			const size_t rest = count - i;
 			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
 			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
 			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
 			const float64x2_t y1 = vld1q_f64(at_y1);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
 			const float64x2_t s = vsubq_f64(t0, t1);
+			float64x2_t acc0 = vld1q_f64(sum + pass);
 			acc0 = vaddq_f64(acc0, s);
+			vst1q_f64(sum + pass, acc0);
 			const float64x2_t w1_0 = vmulq_f64(s, x1);
 			const float64x2_t h1_0 = vfmaq_f64(w1_0, s, x0);
+			float64x2_t acc1 = vld1q_f64(sum + 8 + pass);
 			acc1 = vaddq_f64(acc1, h1_0);
+			vst1q_f64(sum + 8 + pass, acc1);
 			const float64x2_t w0_1 = vmulq_f64(s, y1);
 			const float64x2_t h0_1 = vfmaq_f64(w0_1, s, y0);
+			float64x2_t acc2 = vld1q_f64(sum + 16 + pass);
 			acc2 = vaddq_f64(acc2, h0_1);
+			vst1q_f64(sum + 16 + pass, acc2);
 			const float64x2_t w2_0 = vmulq_f64(w1_0, x1);
 			const float64x2_t h2_0 = vfmaq_f64(w2_0, h1_0, x0);
+			float64x2_t acc3 = vld1q_f64(sum + 24 + pass);
 			acc3 = vaddq_f64(acc3, h2_0);
+			vst1q_f64(sum + 24 + pass, acc3);
 			const float64x2_t w1_1 = vmulq_f64(w0_1, x1);
 			const float64x2_t t2 = vmulq_f64(vdupq_n_f64(2.0), w1_1);
 			const float64x2_t t3 = vfmaq_f64(t2, h1_0, y0);
 			const float64x2_t h1_1 = vfmaq_f64(t3, h0_1, x0);
+			float64x2_t acc4 = vld1q_f64(sum + 32 + pass);
 			acc4 = vaddq_f64(acc4, h1_1);
+			vst1q_f64(sum + 32 + pass, acc4);
 			const float64x2_t w0_2 = vmulq_f64(w0_1, y1);
 			const float64x2_t h0_2 = vfmaq_f64(w0_2, h0_1, y0);
+			float64x2_t acc5 = vld1q_f64(sum + 40 + pass);
 			acc5 = vaddq_f64(acc5, h0_2);
+			vst1q_f64(sum + 40 + pass, acc5);
 			const float64x2_t w3_0 = vmulq_f64(w2_0, x1);
 			const float64x2_t h3_0 = vfmaq_f64(w3_0, h2_0, x0);
+			float64x2_t acc6 = vld1q_f64(sum + 48 + pass);
 			acc6 = vaddq_f64(acc6, h3_0);
+			vst1q_f64(sum + 48 + pass, acc6);
 			const float64x2_t w2_1 = vmulq_f64(w1_1, x1);
 			const float64x2_t t4 = vmulq_f64(vdupq_n_f64(3.0), w2_1);
 			const float64x2_t t5 = vfmaq_f64(t4, h2_0, y0);
 			const float64x2_t h2_1 = vfmaq_f64(t5, h1_1, x0);
+			float64x2_t acc7 = vld1q_f64(sum + 56 + pass);
 			acc7 = vaddq_f64(acc7, h2_1);
+			vst1q_f64(sum + 56 + pass, acc7);
 			const float64x2_t w1_2 = vmulq_f64(w0_2, x1);
 			const float64x2_t t6 = vmulq_f64(vdupq_n_f64(3.0), w1_2);
 			const float64x2_t t7 = vfmaq_f64(t6, h1_1, y0);
 			const float64x2_t h1_2 = vfmaq_f64(t7, h0_2, x0);
+			float64x2_t acc8 = vld1q_f64(sum + 64 + pass);
 			acc8 = vaddq_f64(acc8, h1_2);
+			vst1q_f64(sum + 64 + pass, acc8);
 			const float64x2_t w0_3 = vmulq_f64(w0_2, y1);
 			const float64x2_t h0_3 = vfmaq_f64(w0_3, h0_2, y0);
+			float64x2_t acc9 = vld1q_f64(sum + 72 + pass);
 			acc9 = vaddq_f64(acc9, h0_3);
+			vst1q_f64(sum + 72 + pass, acc9);
 			const float64x2_t w4_0 = vmulq_f64(w3_0, x1);
 			const float64x2_t h4_0 = vfmaq_f64(w4_0, h3_0, x0);
+			float64x2_t acc10 = vld1q_f64(sum + 80 + pass);
 			acc10 = vaddq_f64(acc10, h4_0);
+			vst1q_f64(sum + 80 + pass, acc10);
 			const float64x2_t w3_1 = vmulq_f64(w2_1, x1);
 			const float64x2_t t8 = vmulq_f64(vdupq_n_f64(4.0), w3_1);
 			const float64x2_t t9 = vfmaq_f64(t8, h3_0, y0);
 			const float64x2_t h3_1 = vfmaq_f64(t9, h2_1, x0);
+			float64x2_t acc11 = vld1q_f64(sum + 88 + pass);
 			acc11 = vaddq_f64(acc11, h3_1);
+			vst1q_f64(sum + 88 + pass, acc11);
 			const float64x2_t w2_2 = vmulq_f64(w1_2, x1);
 			const float64x2_t t10 = vmulq_f64(vdupq_n_f64(6.0), w2_2);
 			const float64x2_t t11 = vfmaq_f64(t10, h2_1, y0);
 			const float64x2_t h2_2 = vfmaq_f64(t11, h1_2, x0);
+			float64x2_t acc12 = vld1q_f64(sum + 96 + pass);
 			acc12 = vaddq_f64(acc12, h2_2);
+			vst1q_f64(sum + 96 + pass, acc12);
 			const float64x2_t w1_3 = vmulq_f64(w0_3, x1);
 			const float64x2_t t12 = vmulq_f64(vdupq_n_f64(4.0), w1_3);
 			const float64x2_t t13 = vfmaq_f64(t12, h1_2, y0);
 			const float64x2_t h1_3 = vfmaq_f64(t13, h0_3, x0);
+			float64x2_t acc13 = vld1q_f64(sum + 104 + pass);
 			acc13 = vaddq_f64(acc13, h1_3);
+			vst1q_f64(sum + 104 + pass, acc13);
 			const float64x2_t w0_4 = vmulq_f64(w0_3, y1);
 			const float64x2_t h0_4 = vfmaq_f64(w0_4, h0_3, y0);
+			float64x2_t acc14 = vld1q_f64(sum + 112 + pass);
 			acc14 = vaddq_f64(acc14, h0_4);
+			vst1q_f64(sum + 112 + pass, acc14);
+			float64x2_t acc15 = vld1q_f64(sum + 120 + pass);
 			const float64x2_t t14 = vfmaq_f64(acc15, w4_0, x1);
 			acc15 = vfmaq_f64(t14, h4_0, x0);
+			vst1q_f64(sum + 120 + pass, acc15);
+			float64x2_t acc16 = vld1q_f64(sum + 128 + pass);
 			const float64x2_t t15 = vfmaq_f64(acc16, h4_0, y0);
 			acc16 = vfmaq_f64(t15, h3_1, x0);
+			vst1q_f64(sum + 128 + pass, acc16);
+			float64x2_t acc17 = vld1q_f64(sum + 136 + pass);
 			const float64x2_t t16 = vfmaq_f64(acc17, h3_1, y0);
 			acc17 = vfmaq_f64(t16, h2_2, x0);
+			vst1q_f64(sum + 136 + pass, acc17);
+			float64x2_t acc18 = vld1q_f64(sum + 144 + pass);
 			const float64x2_t t17 = vfmaq_f64(acc18, h2_2, y0);
 			acc18 = vfmaq_f64(t17, h1_3, x0);
+			vst1q_f64(sum + 144 + pass, acc18);
+			float64x2_t acc19 = vld1q_f64(sum + 152 + pass);
 			const float64x2_t t18 = vfmaq_f64(acc19, h1_3, y0);
 			acc19 = vfmaq_f64(t18, h0_4, x0);
+			vst1q_f64(sum + 152 + pass, acc19);
+			float64x2_t acc20 = vld1q_f64(sum + 160 + pass);
 			const float64x2_t t19 = vfmaq_f64(acc20, w0_4, y1);
 			acc20 = vfmaq_f64(t19, h0_4, y0);
+			vst1q_f64(sum + 160 + pass, acc20);
+			float64x2_t acc21 = vld1q_f64(sum + 168 + pass);
 			acc21 = vfmaq_f64(acc21, w3_1, x1);
+			vst1q_f64(sum + 168 + pass, acc21);
+			float64x2_t acc22 = vld1q_f64(sum + 176 + pass);
 			acc22 = vfmaq_f64(acc22, w2_2, x1);
+			vst1q_f64(sum + 176 + pass, acc22);
+			float64x2_t acc23 = vld1q_f64(sum + 184 + pass);
 			acc23 = vfmaq_f64(acc23, w1_3, x1);
+			vst1q_f64(sum + 184 + pass, acc23);
+			float64x2_t acc24 = vld1q_f64(sum + 192 + pass);
 			acc24 = vfmaq_f64(acc24, w0_4, x1);
+			vst1q_f64(sum + 192 + pass, acc24);
 		}
-		vst1q_f64(sum + pass, acc0);
-		vst1q_f64(sum + 8 + pass, acc1);
-		vst1q_f64(sum + 16 + pass, acc2);
-		vst1q_f64(sum + 24 + pass, acc3);
-		vst1q_f64(sum + 32 + pass, acc4);
-		vst1q_f64(sum + 40 + pass, acc5);
-		vst1q_f64(sum + 48 + pass, acc6);
-		vst1q_f64(sum + 56 + pass, acc7);
-		vst1q_f64(sum + 64 + pass, acc8);
-		vst1q_f64(sum + 72 + pass, acc9);
-		vst1q_f64(sum + 80 + pass, acc10);
-		vst1q_f64(sum + 88 + pass, acc11);
-		vst1q_f64(sum + 96 + pass, acc12);
-		vst1q_f64(sum + 104 + pass, acc13);
-		vst1q_f64(sum + 112 + pass, acc14);
-		vst1q_f64(sum + 120 + pass, acc15);
-		vst1q_f64(sum + 128 + pass, acc16);
-		vst1q_f64(sum + 136 + pass, acc17);
-		vst1q_f64(sum + 144 + pass, acc18);
-		vst1q_f64(sum + 152 + pass, acc19);
-		vst1q_f64(sum + 160 + pass, acc20);
-		vst1q_f64(sum + 168 + pass, acc21);
-		vst1q_f64(sum + 176 + pass, acc22);
-		vst1q_f64(sum + 184 + pass, acc23);
-		vst1q_f64(sum + 192 + pass, acc24);
 	}
 }
 
 /* all moments of x^m y^n, m + n <= 6; scheme recurrence.
  * Cost per item: 81 mul or fma, 22 add; 33 accumulators, 18 values alive, depth 15. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_6_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
-			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
-			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
-			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
-			const float64x2_t y1 = vld1q_f64(at_y1);
-			const size_t rest_2 = count - i > 8 ? count - i - 8 : 0;
-			double pad_2[4][2];
-			const double *at_x0_2 = rest_2 < 2
-				? ew_ring_pad(pad_2[0], x + i + 8, rest_2, 2) : x + i + 8;
-			const float64x2_t x0_2 = vld1q_f64(at_x0_2);
-			const double *at_y0_2 = rest_2 < 2
-				? ew_ring_pad(pad_2[1], y + i + 8, rest_2, 2) : y + i + 8;
-			const float64x2_t y0_2 = vld1q_f64(at_y0_2);
-			const double *at_x1_2 = rest_2 < 2
-				? ew_ring_pad(pad_2[2], x + i + 9, rest_2, 2) : x + i + 9;
-			const float64x2_t x1_2 = vld1q_f64(at_x1_2);
-			const double *at_y1_2 = rest_2 < 2
-				? ew_ring_pad(pad_2[3], y + i + 9, rest_2, 2) : y + i + 9;
-			const float64x2_t y1_2 = vld1q_f64(at_y1_2);
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
+		size_t i = pass;
+		for (; i + step + 1 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t x0_2 = vld1q_f64(x + i + step);
+			const float64x2_t y0_2 = vld1q_f64(y + i + step);
+			const float64x2_t x1_2 = vld1q_f64(x + i + step + reach);
+			const float64x2_t y1_2 = vld1q_f64(y + i + step + reach);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t0_2 = vmulq_f64(x0_2, y1_2);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -827,45 +1158,211 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_6_neon(
 			acc32 = vfmaq_f64(acc32, w0_5_2, x1_2);
 			vst1q_f64(sum + 256 + pass, acc32);
 		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
+			const size_t rest = count - i;
+			double pad[4][2];
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
+			const float64x2_t x0 = vld1q_f64(at_x0);
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
+			const float64x2_t y0 = vld1q_f64(at_y0);
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
+			const float64x2_t x1 = vld1q_f64(at_x1);
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
+			const float64x2_t y1 = vld1q_f64(at_y1);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			float64x2_t acc0 = vld1q_f64(sum + pass);
+			acc0 = vaddq_f64(acc0, s);
+			vst1q_f64(sum + pass, acc0);
+			const float64x2_t w1_0 = vmulq_f64(s, x1);
+			const float64x2_t h1_0 = vfmaq_f64(w1_0, s, x0);
+			float64x2_t acc1 = vld1q_f64(sum + 8 + pass);
+			acc1 = vaddq_f64(acc1, h1_0);
+			vst1q_f64(sum + 8 + pass, acc1);
+			const float64x2_t w0_1 = vmulq_f64(s, y1);
+			const float64x2_t h0_1 = vfmaq_f64(w0_1, s, y0);
+			float64x2_t acc2 = vld1q_f64(sum + 16 + pass);
+			acc2 = vaddq_f64(acc2, h0_1);
+			vst1q_f64(sum + 16 + pass, acc2);
+			const float64x2_t w2_0 = vmulq_f64(w1_0, x1);
+			const float64x2_t h2_0 = vfmaq_f64(w2_0, h1_0, x0);
+			float64x2_t acc3 = vld1q_f64(sum + 24 + pass);
+			acc3 = vaddq_f64(acc3, h2_0);
+			vst1q_f64(sum + 24 + pass, acc3);
+			const float64x2_t w1_1 = vmulq_f64(w0_1, x1);
+			const float64x2_t t2 = vmulq_f64(vdupq_n_f64(2.0), w1_1);
+			const float64x2_t t3 = vfmaq_f64(t2, h1_0, y0);
+			const float64x2_t h1_1 = vfmaq_f64(t3, h0_1, x0);
+			float64x2_t acc4 = vld1q_f64(sum + 32 + pass);
+			acc4 = vaddq_f64(acc4, h1_1);
+			vst1q_f64(sum + 32 + pass, acc4);
+			const float64x2_t w0_2 = vmulq_f64(w0_1, y1);
+			const float64x2_t h0_2 = vfmaq_f64(w0_2, h0_1, y0);
+			float64x2_t acc5 = vld1q_f64(sum + 40 + pass);
+			acc5 = vaddq_f64(acc5, h0_2);
+			vst1q_f64(sum + 40 + pass, acc5);
+			const float64x2_t w3_0 = vmulq_f64(w2_0, x1);
+			const float64x2_t h3_0 = vfmaq_f64(w3_0, h2_0, x0);
+			float64x2_t acc6 = vld1q_f64(sum + 48 + pass);
+			acc6 = vaddq_f64(acc6, h3_0);
+			vst1q_f64(sum + 48 + pass, acc6);
+			const float64x2_t w2_1 = vmulq_f64(w1_1, x1);
+			const float64x2_t t4 = vmulq_f64(vdupq_n_f64(3.0), w2_1);
+			const float64x2_t t5 = vfmaq_f64(t4, h2_0, y0);
+			const float64x2_t h2_1 = vfmaq_f64(t5, h1_1, x0);
+			float64x2_t acc7 = vld1q_f64(sum + 56 + pass);
+			acc7 = vaddq_f64(acc7, h2_1);
+			vst1q_f64(sum + 56 + pass, acc7);
+			const float64x2_t w1_2 = vmulq_f64(w0_2, x1);
+			const float64x2_t t6 = vmulq_f64(vdupq_n_f64(3.0), w1_2);
+			const float64x2_t t7 = vfmaq_f64(t6, h1_1, y0);
+			const float64x2_t h1_2 = vfmaq_f64(t7, h0_2, x0);
+			float64x2_t acc8 = vld1q_f64(sum + 64 + pass);
+			acc8 = vaddq_f64(acc8, h1_2);
+			vst1q_f64(sum + 64 + pass, acc8);
+			const float64x2_t w0_3 = vmulq_f64(w0_2, y1);
+			const float64x2_t h0_3 = vfmaq_f64(w0_3, h0_2, y0);
+			float64x2_t acc9 = vld1q_f64(sum + 72 + pass);
+			acc9 = vaddq_f64(acc9, h0_3);
+			vst1q_f64(sum + 72 + pass, acc9);
+			const float64x2_t w4_0 = vmulq_f64(w3_0, x1);
+			const float64x2_t h4_0 = vfmaq_f64(w4_0, h3_0, x0);
+			float64x2_t acc10 = vld1q_f64(sum + 80 + pass);
+			acc10 = vaddq_f64(acc10, h4_0);
+			vst1q_f64(sum + 80 + pass, acc10);
+			const float64x2_t w3_1 = vmulq_f64(w2_1, x1);
+			const float64x2_t t8 = vmulq_f64(vdupq_n_f64(4.0), w3_1);
+			const float64x2_t t9 = vfmaq_f64(t8, h3_0, y0);
+			const float64x2_t h3_1 = vfmaq_f64(t9, h2_1, x0);
+			float64x2_t acc11 = vld1q_f64(sum + 88 + pass);
+			acc11 = vaddq_f64(acc11, h3_1);
+			vst1q_f64(sum + 88 + pass, acc11);
+			const float64x2_t w2_2 = vmulq_f64(w1_2, x1);
+			const float64x2_t t10 = vmulq_f64(vdupq_n_f64(6.0), w2_2);
+			const float64x2_t t11 = vfmaq_f64(t10, h2_1, y0);
+			const float64x2_t h2_2 = vfmaq_f64(t11, h1_2, x0);
+			float64x2_t acc12 = vld1q_f64(sum + 96 + pass);
+			acc12 = vaddq_f64(acc12, h2_2);
+			vst1q_f64(sum + 96 + pass, acc12);
+			const float64x2_t w1_3 = vmulq_f64(w0_3, x1);
+			const float64x2_t t12 = vmulq_f64(vdupq_n_f64(4.0), w1_3);
+			const float64x2_t t13 = vfmaq_f64(t12, h1_2, y0);
+			const float64x2_t h1_3 = vfmaq_f64(t13, h0_3, x0);
+			float64x2_t acc13 = vld1q_f64(sum + 104 + pass);
+			acc13 = vaddq_f64(acc13, h1_3);
+			vst1q_f64(sum + 104 + pass, acc13);
+			const float64x2_t w0_4 = vmulq_f64(w0_3, y1);
+			const float64x2_t h0_4 = vfmaq_f64(w0_4, h0_3, y0);
+			float64x2_t acc14 = vld1q_f64(sum + 112 + pass);
+			acc14 = vaddq_f64(acc14, h0_4);
+			vst1q_f64(sum + 112 + pass, acc14);
+			const float64x2_t w5_0 = vmulq_f64(w4_0, x1);
+			const float64x2_t h5_0 = vfmaq_f64(w5_0, h4_0, x0);
+			float64x2_t acc15 = vld1q_f64(sum + 120 + pass);
+			acc15 = vaddq_f64(acc15, h5_0);
+			vst1q_f64(sum + 120 + pass, acc15);
+			const float64x2_t w4_1 = vmulq_f64(w3_1, x1);
+			const float64x2_t t14 = vmulq_f64(vdupq_n_f64(5.0), w4_1);
+			const float64x2_t t15 = vfmaq_f64(t14, h4_0, y0);
+			const float64x2_t h4_1 = vfmaq_f64(t15, h3_1, x0);
+			float64x2_t acc16 = vld1q_f64(sum + 128 + pass);
+			acc16 = vaddq_f64(acc16, h4_1);
+			vst1q_f64(sum + 128 + pass, acc16);
+			const float64x2_t w3_2 = vmulq_f64(w2_2, x1);
+			const float64x2_t t16 = vmulq_f64(vdupq_n_f64(10.0), w3_2);
+			const float64x2_t t17 = vfmaq_f64(t16, h3_1, y0);
+			const float64x2_t h3_2 = vfmaq_f64(t17, h2_2, x0);
+			float64x2_t acc17 = vld1q_f64(sum + 136 + pass);
+			acc17 = vaddq_f64(acc17, h3_2);
+			vst1q_f64(sum + 136 + pass, acc17);
+			const float64x2_t w2_3 = vmulq_f64(w1_3, x1);
+			const float64x2_t t18 = vmulq_f64(vdupq_n_f64(10.0), w2_3);
+			const float64x2_t t19 = vfmaq_f64(t18, h2_2, y0);
+			const float64x2_t h2_3 = vfmaq_f64(t19, h1_3, x0);
+			float64x2_t acc18 = vld1q_f64(sum + 144 + pass);
+			acc18 = vaddq_f64(acc18, h2_3);
+			vst1q_f64(sum + 144 + pass, acc18);
+			const float64x2_t w1_4 = vmulq_f64(w0_4, x1);
+			const float64x2_t t20 = vmulq_f64(vdupq_n_f64(5.0), w1_4);
+			const float64x2_t t21 = vfmaq_f64(t20, h1_3, y0);
+			const float64x2_t h1_4 = vfmaq_f64(t21, h0_4, x0);
+			float64x2_t acc19 = vld1q_f64(sum + 152 + pass);
+			acc19 = vaddq_f64(acc19, h1_4);
+			vst1q_f64(sum + 152 + pass, acc19);
+			const float64x2_t w0_5 = vmulq_f64(w0_4, y1);
+			const float64x2_t h0_5 = vfmaq_f64(w0_5, h0_4, y0);
+			float64x2_t acc20 = vld1q_f64(sum + 160 + pass);
+			acc20 = vaddq_f64(acc20, h0_5);
+			vst1q_f64(sum + 160 + pass, acc20);
+			float64x2_t acc21 = vld1q_f64(sum + 168 + pass);
+			const float64x2_t t22 = vfmaq_f64(acc21, w5_0, x1);
+			acc21 = vfmaq_f64(t22, h5_0, x0);
+			vst1q_f64(sum + 168 + pass, acc21);
+			float64x2_t acc22 = vld1q_f64(sum + 176 + pass);
+			const float64x2_t t23 = vfmaq_f64(acc22, h5_0, y0);
+			acc22 = vfmaq_f64(t23, h4_1, x0);
+			vst1q_f64(sum + 176 + pass, acc22);
+			float64x2_t acc23 = vld1q_f64(sum + 184 + pass);
+			const float64x2_t t24 = vfmaq_f64(acc23, h4_1, y0);
+			acc23 = vfmaq_f64(t24, h3_2, x0);
+			vst1q_f64(sum + 184 + pass, acc23);
+			float64x2_t acc24 = vld1q_f64(sum + 192 + pass);
+			const float64x2_t t25 = vfmaq_f64(acc24, h3_2, y0);
+			acc24 = vfmaq_f64(t25, h2_3, x0);
+			vst1q_f64(sum + 192 + pass, acc24);
+			float64x2_t acc25 = vld1q_f64(sum + 200 + pass);
+			const float64x2_t t26 = vfmaq_f64(acc25, h2_3, y0);
+			acc25 = vfmaq_f64(t26, h1_4, x0);
+			vst1q_f64(sum + 200 + pass, acc25);
+			float64x2_t acc26 = vld1q_f64(sum + 208 + pass);
+			const float64x2_t t27 = vfmaq_f64(acc26, h1_4, y0);
+			acc26 = vfmaq_f64(t27, h0_5, x0);
+			vst1q_f64(sum + 208 + pass, acc26);
+			float64x2_t acc27 = vld1q_f64(sum + 216 + pass);
+			const float64x2_t t28 = vfmaq_f64(acc27, w0_5, y1);
+			acc27 = vfmaq_f64(t28, h0_5, y0);
+			vst1q_f64(sum + 216 + pass, acc27);
+			float64x2_t acc28 = vld1q_f64(sum + 224 + pass);
+			acc28 = vfmaq_f64(acc28, w4_1, x1);
+			vst1q_f64(sum + 224 + pass, acc28);
+			float64x2_t acc29 = vld1q_f64(sum + 232 + pass);
+			acc29 = vfmaq_f64(acc29, w3_2, x1);
+			vst1q_f64(sum + 232 + pass, acc29);
+			float64x2_t acc30 = vld1q_f64(sum + 240 + pass);
+			acc30 = vfmaq_f64(acc30, w2_3, x1);
+			vst1q_f64(sum + 240 + pass, acc30);
+			float64x2_t acc31 = vld1q_f64(sum + 248 + pass);
+			acc31 = vfmaq_f64(acc31, w1_4, x1);
+			vst1q_f64(sum + 248 + pass, acc31);
+			float64x2_t acc32 = vld1q_f64(sum + 256 + pass);
+			acc32 = vfmaq_f64(acc32, w0_5, x1);
+			vst1q_f64(sum + 256 + pass, acc32);
+		}
 	}
 }
 
 /* all moments of x^m y^n, m + n <= 7; scheme recurrence.
  * Cost per item: 108 mul or fma, 29 add; 42 accumulators, 20 values alive, depth 17. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_7_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
-			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
-			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
-			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
-			const float64x2_t y1 = vld1q_f64(at_y1);
-			const size_t rest_2 = count - i > 8 ? count - i - 8 : 0;
-			double pad_2[4][2];
-			const double *at_x0_2 = rest_2 < 2
-				? ew_ring_pad(pad_2[0], x + i + 8, rest_2, 2) : x + i + 8;
-			const float64x2_t x0_2 = vld1q_f64(at_x0_2);
-			const double *at_y0_2 = rest_2 < 2
-				? ew_ring_pad(pad_2[1], y + i + 8, rest_2, 2) : y + i + 8;
-			const float64x2_t y0_2 = vld1q_f64(at_y0_2);
-			const double *at_x1_2 = rest_2 < 2
-				? ew_ring_pad(pad_2[2], x + i + 9, rest_2, 2) : x + i + 9;
-			const float64x2_t x1_2 = vld1q_f64(at_x1_2);
-			const double *at_y1_2 = rest_2 < 2
-				? ew_ring_pad(pad_2[3], y + i + 9, rest_2, 2) : y + i + 9;
-			const float64x2_t y1_2 = vld1q_f64(at_y1_2);
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
+		size_t i = pass;
+		for (; i + step + 1 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t x0_2 = vld1q_f64(x + i + step);
+			const float64x2_t y0_2 = vld1q_f64(y + i + step);
+			const float64x2_t x1_2 = vld1q_f64(x + i + step + reach);
+			const float64x2_t y1_2 = vld1q_f64(y + i + step + reach);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t0_2 = vmulq_f64(x0_2, y1_2);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -1225,45 +1722,263 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_7_neon(
 			acc41 = vfmaq_f64(acc41, w0_6_2, x1_2);
 			vst1q_f64(sum + 328 + pass, acc41);
 		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
+			const size_t rest = count - i;
+			double pad[4][2];
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
+			const float64x2_t x0 = vld1q_f64(at_x0);
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
+			const float64x2_t y0 = vld1q_f64(at_y0);
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
+			const float64x2_t x1 = vld1q_f64(at_x1);
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
+			const float64x2_t y1 = vld1q_f64(at_y1);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			float64x2_t acc0 = vld1q_f64(sum + pass);
+			acc0 = vaddq_f64(acc0, s);
+			vst1q_f64(sum + pass, acc0);
+			const float64x2_t w1_0 = vmulq_f64(s, x1);
+			const float64x2_t h1_0 = vfmaq_f64(w1_0, s, x0);
+			float64x2_t acc1 = vld1q_f64(sum + 8 + pass);
+			acc1 = vaddq_f64(acc1, h1_0);
+			vst1q_f64(sum + 8 + pass, acc1);
+			const float64x2_t w0_1 = vmulq_f64(s, y1);
+			const float64x2_t h0_1 = vfmaq_f64(w0_1, s, y0);
+			float64x2_t acc2 = vld1q_f64(sum + 16 + pass);
+			acc2 = vaddq_f64(acc2, h0_1);
+			vst1q_f64(sum + 16 + pass, acc2);
+			const float64x2_t w2_0 = vmulq_f64(w1_0, x1);
+			const float64x2_t h2_0 = vfmaq_f64(w2_0, h1_0, x0);
+			float64x2_t acc3 = vld1q_f64(sum + 24 + pass);
+			acc3 = vaddq_f64(acc3, h2_0);
+			vst1q_f64(sum + 24 + pass, acc3);
+			const float64x2_t w1_1 = vmulq_f64(w0_1, x1);
+			const float64x2_t t2 = vmulq_f64(vdupq_n_f64(2.0), w1_1);
+			const float64x2_t t3 = vfmaq_f64(t2, h1_0, y0);
+			const float64x2_t h1_1 = vfmaq_f64(t3, h0_1, x0);
+			float64x2_t acc4 = vld1q_f64(sum + 32 + pass);
+			acc4 = vaddq_f64(acc4, h1_1);
+			vst1q_f64(sum + 32 + pass, acc4);
+			const float64x2_t w0_2 = vmulq_f64(w0_1, y1);
+			const float64x2_t h0_2 = vfmaq_f64(w0_2, h0_1, y0);
+			float64x2_t acc5 = vld1q_f64(sum + 40 + pass);
+			acc5 = vaddq_f64(acc5, h0_2);
+			vst1q_f64(sum + 40 + pass, acc5);
+			const float64x2_t w3_0 = vmulq_f64(w2_0, x1);
+			const float64x2_t h3_0 = vfmaq_f64(w3_0, h2_0, x0);
+			float64x2_t acc6 = vld1q_f64(sum + 48 + pass);
+			acc6 = vaddq_f64(acc6, h3_0);
+			vst1q_f64(sum + 48 + pass, acc6);
+			const float64x2_t w2_1 = vmulq_f64(w1_1, x1);
+			const float64x2_t t4 = vmulq_f64(vdupq_n_f64(3.0), w2_1);
+			const float64x2_t t5 = vfmaq_f64(t4, h2_0, y0);
+			const float64x2_t h2_1 = vfmaq_f64(t5, h1_1, x0);
+			float64x2_t acc7 = vld1q_f64(sum + 56 + pass);
+			acc7 = vaddq_f64(acc7, h2_1);
+			vst1q_f64(sum + 56 + pass, acc7);
+			const float64x2_t w1_2 = vmulq_f64(w0_2, x1);
+			const float64x2_t t6 = vmulq_f64(vdupq_n_f64(3.0), w1_2);
+			const float64x2_t t7 = vfmaq_f64(t6, h1_1, y0);
+			const float64x2_t h1_2 = vfmaq_f64(t7, h0_2, x0);
+			float64x2_t acc8 = vld1q_f64(sum + 64 + pass);
+			acc8 = vaddq_f64(acc8, h1_2);
+			vst1q_f64(sum + 64 + pass, acc8);
+			const float64x2_t w0_3 = vmulq_f64(w0_2, y1);
+			const float64x2_t h0_3 = vfmaq_f64(w0_3, h0_2, y0);
+			float64x2_t acc9 = vld1q_f64(sum + 72 + pass);
+			acc9 = vaddq_f64(acc9, h0_3);
+			vst1q_f64(sum + 72 + pass, acc9);
+			const float64x2_t w4_0 = vmulq_f64(w3_0, x1);
+			const float64x2_t h4_0 = vfmaq_f64(w4_0, h3_0, x0);
+			float64x2_t acc10 = vld1q_f64(sum + 80 + pass);
+			acc10 = vaddq_f64(acc10, h4_0);
+			vst1q_f64(sum + 80 + pass, acc10);
+			const float64x2_t w3_1 = vmulq_f64(w2_1, x1);
+			const float64x2_t t8 = vmulq_f64(vdupq_n_f64(4.0), w3_1);
+			const float64x2_t t9 = vfmaq_f64(t8, h3_0, y0);
+			const float64x2_t h3_1 = vfmaq_f64(t9, h2_1, x0);
+			float64x2_t acc11 = vld1q_f64(sum + 88 + pass);
+			acc11 = vaddq_f64(acc11, h3_1);
+			vst1q_f64(sum + 88 + pass, acc11);
+			const float64x2_t w2_2 = vmulq_f64(w1_2, x1);
+			const float64x2_t t10 = vmulq_f64(vdupq_n_f64(6.0), w2_2);
+			const float64x2_t t11 = vfmaq_f64(t10, h2_1, y0);
+			const float64x2_t h2_2 = vfmaq_f64(t11, h1_2, x0);
+			float64x2_t acc12 = vld1q_f64(sum + 96 + pass);
+			acc12 = vaddq_f64(acc12, h2_2);
+			vst1q_f64(sum + 96 + pass, acc12);
+			const float64x2_t w1_3 = vmulq_f64(w0_3, x1);
+			const float64x2_t t12 = vmulq_f64(vdupq_n_f64(4.0), w1_3);
+			const float64x2_t t13 = vfmaq_f64(t12, h1_2, y0);
+			const float64x2_t h1_3 = vfmaq_f64(t13, h0_3, x0);
+			float64x2_t acc13 = vld1q_f64(sum + 104 + pass);
+			acc13 = vaddq_f64(acc13, h1_3);
+			vst1q_f64(sum + 104 + pass, acc13);
+			const float64x2_t w0_4 = vmulq_f64(w0_3, y1);
+			const float64x2_t h0_4 = vfmaq_f64(w0_4, h0_3, y0);
+			float64x2_t acc14 = vld1q_f64(sum + 112 + pass);
+			acc14 = vaddq_f64(acc14, h0_4);
+			vst1q_f64(sum + 112 + pass, acc14);
+			const float64x2_t w5_0 = vmulq_f64(w4_0, x1);
+			const float64x2_t h5_0 = vfmaq_f64(w5_0, h4_0, x0);
+			float64x2_t acc15 = vld1q_f64(sum + 120 + pass);
+			acc15 = vaddq_f64(acc15, h5_0);
+			vst1q_f64(sum + 120 + pass, acc15);
+			const float64x2_t w4_1 = vmulq_f64(w3_1, x1);
+			const float64x2_t t14 = vmulq_f64(vdupq_n_f64(5.0), w4_1);
+			const float64x2_t t15 = vfmaq_f64(t14, h4_0, y0);
+			const float64x2_t h4_1 = vfmaq_f64(t15, h3_1, x0);
+			float64x2_t acc16 = vld1q_f64(sum + 128 + pass);
+			acc16 = vaddq_f64(acc16, h4_1);
+			vst1q_f64(sum + 128 + pass, acc16);
+			const float64x2_t w3_2 = vmulq_f64(w2_2, x1);
+			const float64x2_t t16 = vmulq_f64(vdupq_n_f64(10.0), w3_2);
+			const float64x2_t t17 = vfmaq_f64(t16, h3_1, y0);
+			const float64x2_t h3_2 = vfmaq_f64(t17, h2_2, x0);
+			float64x2_t acc17 = vld1q_f64(sum + 136 + pass);
+			acc17 = vaddq_f64(acc17, h3_2);
+			vst1q_f64(sum + 136 + pass, acc17);
+			const float64x2_t w2_3 = vmulq_f64(w1_3, x1);
+			const float64x2_t t18 = vmulq_f64(vdupq_n_f64(10.0), w2_3);
+			const float64x2_t t19 = vfmaq_f64(t18, h2_2, y0);
+			const float64x2_t h2_3 = vfmaq_f64(t19, h1_3, x0);
+			float64x2_t acc18 = vld1q_f64(sum + 144 + pass);
+			acc18 = vaddq_f64(acc18, h2_3);
+			vst1q_f64(sum + 144 + pass, acc18);
+			const float64x2_t w1_4 = vmulq_f64(w0_4, x1);
+			const float64x2_t t20 = vmulq_f64(vdupq_n_f64(5.0), w1_4);
+			const float64x2_t t21 = vfmaq_f64(t20, h1_3, y0);
+			const float64x2_t h1_4 = vfmaq_f64(t21, h0_4, x0);
+			float64x2_t acc19 = vld1q_f64(sum + 152 + pass);
+			acc19 = vaddq_f64(acc19, h1_4);
+			vst1q_f64(sum + 152 + pass, acc19);
+			const float64x2_t w0_5 = vmulq_f64(w0_4, y1);
+			const float64x2_t h0_5 = vfmaq_f64(w0_5, h0_4, y0);
+			float64x2_t acc20 = vld1q_f64(sum + 160 + pass);
+			acc20 = vaddq_f64(acc20, h0_5);
+			vst1q_f64(sum + 160 + pass, acc20);
+			const float64x2_t w6_0 = vmulq_f64(w5_0, x1);
+			const float64x2_t h6_0 = vfmaq_f64(w6_0, h5_0, x0);
+			float64x2_t acc21 = vld1q_f64(sum + 168 + pass);
+			acc21 = vaddq_f64(acc21, h6_0);
+			vst1q_f64(sum + 168 + pass, acc21);
+			const float64x2_t w5_1 = vmulq_f64(w4_1, x1);
+			const float64x2_t t22 = vmulq_f64(vdupq_n_f64(6.0), w5_1);
+			const float64x2_t t23 = vfmaq_f64(t22, h5_0, y0);
+			const float64x2_t h5_1 = vfmaq_f64(t23, h4_1, x0);
+			float64x2_t acc22 = vld1q_f64(sum + 176 + pass);
+			acc22 = vaddq_f64(acc22, h5_1);
+			vst1q_f64(sum + 176 + pass, acc22);
+			const float64x2_t w4_2 = vmulq_f64(w3_2, x1);
+			const float64x2_t t24 = vmulq_f64(vdupq_n_f64(15.0), w4_2);
+			const float64x2_t t25 = vfmaq_f64(t24, h4_1, y0);
+			const float64x2_t h4_2 = vfmaq_f64(t25, h3_2, x0);
+			float64x2_t acc23 = vld1q_f64(sum + 184 + pass);
+			acc23 = vaddq_f64(acc23, h4_2);
+			vst1q_f64(sum + 184 + pass, acc23);
+			const float64x2_t w3_3 = vmulq_f64(w2_3, x1);
+			const float64x2_t t26 = vmulq_f64(vdupq_n_f64(20.0), w3_3);
+			const float64x2_t t27 = vfmaq_f64(t26, h3_2, y0);
+			const float64x2_t h3_3 = vfmaq_f64(t27, h2_3, x0);
+			float64x2_t acc24 = vld1q_f64(sum + 192 + pass);
+			acc24 = vaddq_f64(acc24, h3_3);
+			vst1q_f64(sum + 192 + pass, acc24);
+			const float64x2_t w2_4 = vmulq_f64(w1_4, x1);
+			const float64x2_t t28 = vmulq_f64(vdupq_n_f64(15.0), w2_4);
+			const float64x2_t t29 = vfmaq_f64(t28, h2_3, y0);
+			const float64x2_t h2_4 = vfmaq_f64(t29, h1_4, x0);
+			float64x2_t acc25 = vld1q_f64(sum + 200 + pass);
+			acc25 = vaddq_f64(acc25, h2_4);
+			vst1q_f64(sum + 200 + pass, acc25);
+			const float64x2_t w1_5 = vmulq_f64(w0_5, x1);
+			const float64x2_t t30 = vmulq_f64(vdupq_n_f64(6.0), w1_5);
+			const float64x2_t t31 = vfmaq_f64(t30, h1_4, y0);
+			const float64x2_t h1_5 = vfmaq_f64(t31, h0_5, x0);
+			float64x2_t acc26 = vld1q_f64(sum + 208 + pass);
+			acc26 = vaddq_f64(acc26, h1_5);
+			vst1q_f64(sum + 208 + pass, acc26);
+			const float64x2_t w0_6 = vmulq_f64(w0_5, y1);
+			const float64x2_t h0_6 = vfmaq_f64(w0_6, h0_5, y0);
+			float64x2_t acc27 = vld1q_f64(sum + 216 + pass);
+			acc27 = vaddq_f64(acc27, h0_6);
+			vst1q_f64(sum + 216 + pass, acc27);
+			float64x2_t acc28 = vld1q_f64(sum + 224 + pass);
+			const float64x2_t t32 = vfmaq_f64(acc28, w6_0, x1);
+			acc28 = vfmaq_f64(t32, h6_0, x0);
+			vst1q_f64(sum + 224 + pass, acc28);
+			float64x2_t acc29 = vld1q_f64(sum + 232 + pass);
+			const float64x2_t t33 = vfmaq_f64(acc29, h6_0, y0);
+			acc29 = vfmaq_f64(t33, h5_1, x0);
+			vst1q_f64(sum + 232 + pass, acc29);
+			float64x2_t acc30 = vld1q_f64(sum + 240 + pass);
+			const float64x2_t t34 = vfmaq_f64(acc30, h5_1, y0);
+			acc30 = vfmaq_f64(t34, h4_2, x0);
+			vst1q_f64(sum + 240 + pass, acc30);
+			float64x2_t acc31 = vld1q_f64(sum + 248 + pass);
+			const float64x2_t t35 = vfmaq_f64(acc31, h4_2, y0);
+			acc31 = vfmaq_f64(t35, h3_3, x0);
+			vst1q_f64(sum + 248 + pass, acc31);
+			float64x2_t acc32 = vld1q_f64(sum + 256 + pass);
+			const float64x2_t t36 = vfmaq_f64(acc32, h3_3, y0);
+			acc32 = vfmaq_f64(t36, h2_4, x0);
+			vst1q_f64(sum + 256 + pass, acc32);
+			float64x2_t acc33 = vld1q_f64(sum + 264 + pass);
+			const float64x2_t t37 = vfmaq_f64(acc33, h2_4, y0);
+			acc33 = vfmaq_f64(t37, h1_5, x0);
+			vst1q_f64(sum + 264 + pass, acc33);
+			float64x2_t acc34 = vld1q_f64(sum + 272 + pass);
+			const float64x2_t t38 = vfmaq_f64(acc34, h1_5, y0);
+			acc34 = vfmaq_f64(t38, h0_6, x0);
+			vst1q_f64(sum + 272 + pass, acc34);
+			float64x2_t acc35 = vld1q_f64(sum + 280 + pass);
+			const float64x2_t t39 = vfmaq_f64(acc35, w0_6, y1);
+			acc35 = vfmaq_f64(t39, h0_6, y0);
+			vst1q_f64(sum + 280 + pass, acc35);
+			float64x2_t acc36 = vld1q_f64(sum + 288 + pass);
+			acc36 = vfmaq_f64(acc36, w5_1, x1);
+			vst1q_f64(sum + 288 + pass, acc36);
+			float64x2_t acc37 = vld1q_f64(sum + 296 + pass);
+			acc37 = vfmaq_f64(acc37, w4_2, x1);
+			vst1q_f64(sum + 296 + pass, acc37);
+			float64x2_t acc38 = vld1q_f64(sum + 304 + pass);
+			acc38 = vfmaq_f64(acc38, w3_3, x1);
+			vst1q_f64(sum + 304 + pass, acc38);
+			float64x2_t acc39 = vld1q_f64(sum + 312 + pass);
+			acc39 = vfmaq_f64(acc39, w2_4, x1);
+			vst1q_f64(sum + 312 + pass, acc39);
+			float64x2_t acc40 = vld1q_f64(sum + 320 + pass);
+			acc40 = vfmaq_f64(acc40, w1_5, x1);
+			vst1q_f64(sum + 320 + pass, acc40);
+			float64x2_t acc41 = vld1q_f64(sum + 328 + pass);
+			acc41 = vfmaq_f64(acc41, w0_6, x1);
+			vst1q_f64(sum + 328 + pass, acc41);
+		}
 	}
 }
 
 /* all moments of x^m y^n, m + n <= 8; scheme recurrence.
  * Cost per item: 139 mul or fma, 37 add; 52 accumulators, 22 values alive, depth 19. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_8_neon(
-	const double *x, const double *y, double origin, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 8 && pass < count; pass += 2) {
-		for (size_t i = pass; i < count; i += 16) {
-			const size_t rest = count - i;
-			double pad[4][2];
-			const double *at_x0 = rest < 2
-				? ew_ring_pad(pad[0], x + i, rest, 2) : x + i;
-			const float64x2_t x0 = vld1q_f64(at_x0);
-			const double *at_y0 = rest < 2
-				? ew_ring_pad(pad[1], y + i, rest, 2) : y + i;
-			const float64x2_t y0 = vld1q_f64(at_y0);
-			const double *at_x1 = rest < 2
-				? ew_ring_pad(pad[2], x + i + 1, rest, 2) : x + i + 1;
-			const float64x2_t x1 = vld1q_f64(at_x1);
-			const double *at_y1 = rest < 2
-				? ew_ring_pad(pad[3], y + i + 1, rest, 2) : y + i + 1;
-			const float64x2_t y1 = vld1q_f64(at_y1);
-			const size_t rest_2 = count - i > 8 ? count - i - 8 : 0;
-			double pad_2[4][2];
-			const double *at_x0_2 = rest_2 < 2
-				? ew_ring_pad(pad_2[0], x + i + 8, rest_2, 2) : x + i + 8;
-			const float64x2_t x0_2 = vld1q_f64(at_x0_2);
-			const double *at_y0_2 = rest_2 < 2
-				? ew_ring_pad(pad_2[1], y + i + 8, rest_2, 2) : y + i + 8;
-			const float64x2_t y0_2 = vld1q_f64(at_y0_2);
-			const double *at_x1_2 = rest_2 < 2
-				? ew_ring_pad(pad_2[2], x + i + 9, rest_2, 2) : x + i + 9;
-			const float64x2_t x1_2 = vld1q_f64(at_x1_2);
-			const double *at_y1_2 = rest_2 < 2
-				? ew_ring_pad(pad_2[3], y + i + 9, rest_2, 2) : y + i + 9;
-			const float64x2_t y1_2 = vld1q_f64(at_y1_2);
+	for (size_t pass = 0; pass < step && pass < count; pass += 2) {
+		size_t i = pass;
+		for (; i + step + 1 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const float64x2_t x0 = vld1q_f64(x + i);
+			const float64x2_t y0 = vld1q_f64(y + i);
+			const float64x2_t x1 = vld1q_f64(x + i + reach);
+			const float64x2_t y1 = vld1q_f64(y + i + reach);
+			const float64x2_t x0_2 = vld1q_f64(x + i + step);
+			const float64x2_t y0_2 = vld1q_f64(y + i + step);
+			const float64x2_t x1_2 = vld1q_f64(x + i + step + reach);
+			const float64x2_t y1_2 = vld1q_f64(y + i + step + reach);
 			const float64x2_t t0 = vmulq_f64(x0, y1);
 			const float64x2_t t0_2 = vmulq_f64(x0_2, y1_2);
 			const float64x2_t t1 = vmulq_f64(x1, y0);
@@ -1719,6 +2434,300 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_8_neon(
 			float64x2_t acc51 = vld1q_f64(sum + 408 + pass);
 			acc51 = vfmaq_f64(acc51, w0_7, x1);
 			acc51 = vfmaq_f64(acc51, w0_7_2, x1_2);
+			vst1q_f64(sum + 408 + pass, acc51);
+		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
+			const size_t rest = count - i;
+			double pad[4][2];
+			int at = 0;
+			const double *at_x0 = ew_ring_pad(pad[at++], x + i, rest, 2);
+			const float64x2_t x0 = vld1q_f64(at_x0);
+			const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
+			const float64x2_t y0 = vld1q_f64(at_y0);
+			const double *at_x1 = ew_ring_pad(pad[at++], x + i + reach, rest, 2);
+			const float64x2_t x1 = vld1q_f64(at_x1);
+			const double *at_y1 = ew_ring_pad(pad[at++], y + i + reach, rest, 2);
+			const float64x2_t y1 = vld1q_f64(at_y1);
+			const float64x2_t t0 = vmulq_f64(x0, y1);
+			const float64x2_t t1 = vmulq_f64(x1, y0);
+			const float64x2_t s = vsubq_f64(t0, t1);
+			float64x2_t acc0 = vld1q_f64(sum + pass);
+			acc0 = vaddq_f64(acc0, s);
+			vst1q_f64(sum + pass, acc0);
+			const float64x2_t w1_0 = vmulq_f64(s, x1);
+			const float64x2_t h1_0 = vfmaq_f64(w1_0, s, x0);
+			float64x2_t acc1 = vld1q_f64(sum + 8 + pass);
+			acc1 = vaddq_f64(acc1, h1_0);
+			vst1q_f64(sum + 8 + pass, acc1);
+			const float64x2_t w0_1 = vmulq_f64(s, y1);
+			const float64x2_t h0_1 = vfmaq_f64(w0_1, s, y0);
+			float64x2_t acc2 = vld1q_f64(sum + 16 + pass);
+			acc2 = vaddq_f64(acc2, h0_1);
+			vst1q_f64(sum + 16 + pass, acc2);
+			const float64x2_t w2_0 = vmulq_f64(w1_0, x1);
+			const float64x2_t h2_0 = vfmaq_f64(w2_0, h1_0, x0);
+			float64x2_t acc3 = vld1q_f64(sum + 24 + pass);
+			acc3 = vaddq_f64(acc3, h2_0);
+			vst1q_f64(sum + 24 + pass, acc3);
+			const float64x2_t w1_1 = vmulq_f64(w0_1, x1);
+			const float64x2_t t2 = vmulq_f64(vdupq_n_f64(2.0), w1_1);
+			const float64x2_t t3 = vfmaq_f64(t2, h1_0, y0);
+			const float64x2_t h1_1 = vfmaq_f64(t3, h0_1, x0);
+			float64x2_t acc4 = vld1q_f64(sum + 32 + pass);
+			acc4 = vaddq_f64(acc4, h1_1);
+			vst1q_f64(sum + 32 + pass, acc4);
+			const float64x2_t w0_2 = vmulq_f64(w0_1, y1);
+			const float64x2_t h0_2 = vfmaq_f64(w0_2, h0_1, y0);
+			float64x2_t acc5 = vld1q_f64(sum + 40 + pass);
+			acc5 = vaddq_f64(acc5, h0_2);
+			vst1q_f64(sum + 40 + pass, acc5);
+			const float64x2_t w3_0 = vmulq_f64(w2_0, x1);
+			const float64x2_t h3_0 = vfmaq_f64(w3_0, h2_0, x0);
+			float64x2_t acc6 = vld1q_f64(sum + 48 + pass);
+			acc6 = vaddq_f64(acc6, h3_0);
+			vst1q_f64(sum + 48 + pass, acc6);
+			const float64x2_t w2_1 = vmulq_f64(w1_1, x1);
+			const float64x2_t t4 = vmulq_f64(vdupq_n_f64(3.0), w2_1);
+			const float64x2_t t5 = vfmaq_f64(t4, h2_0, y0);
+			const float64x2_t h2_1 = vfmaq_f64(t5, h1_1, x0);
+			float64x2_t acc7 = vld1q_f64(sum + 56 + pass);
+			acc7 = vaddq_f64(acc7, h2_1);
+			vst1q_f64(sum + 56 + pass, acc7);
+			const float64x2_t w1_2 = vmulq_f64(w0_2, x1);
+			const float64x2_t t6 = vmulq_f64(vdupq_n_f64(3.0), w1_2);
+			const float64x2_t t7 = vfmaq_f64(t6, h1_1, y0);
+			const float64x2_t h1_2 = vfmaq_f64(t7, h0_2, x0);
+			float64x2_t acc8 = vld1q_f64(sum + 64 + pass);
+			acc8 = vaddq_f64(acc8, h1_2);
+			vst1q_f64(sum + 64 + pass, acc8);
+			const float64x2_t w0_3 = vmulq_f64(w0_2, y1);
+			const float64x2_t h0_3 = vfmaq_f64(w0_3, h0_2, y0);
+			float64x2_t acc9 = vld1q_f64(sum + 72 + pass);
+			acc9 = vaddq_f64(acc9, h0_3);
+			vst1q_f64(sum + 72 + pass, acc9);
+			const float64x2_t w4_0 = vmulq_f64(w3_0, x1);
+			const float64x2_t h4_0 = vfmaq_f64(w4_0, h3_0, x0);
+			float64x2_t acc10 = vld1q_f64(sum + 80 + pass);
+			acc10 = vaddq_f64(acc10, h4_0);
+			vst1q_f64(sum + 80 + pass, acc10);
+			const float64x2_t w3_1 = vmulq_f64(w2_1, x1);
+			const float64x2_t t8 = vmulq_f64(vdupq_n_f64(4.0), w3_1);
+			const float64x2_t t9 = vfmaq_f64(t8, h3_0, y0);
+			const float64x2_t h3_1 = vfmaq_f64(t9, h2_1, x0);
+			float64x2_t acc11 = vld1q_f64(sum + 88 + pass);
+			acc11 = vaddq_f64(acc11, h3_1);
+			vst1q_f64(sum + 88 + pass, acc11);
+			const float64x2_t w2_2 = vmulq_f64(w1_2, x1);
+			const float64x2_t t10 = vmulq_f64(vdupq_n_f64(6.0), w2_2);
+			const float64x2_t t11 = vfmaq_f64(t10, h2_1, y0);
+			const float64x2_t h2_2 = vfmaq_f64(t11, h1_2, x0);
+			float64x2_t acc12 = vld1q_f64(sum + 96 + pass);
+			acc12 = vaddq_f64(acc12, h2_2);
+			vst1q_f64(sum + 96 + pass, acc12);
+			const float64x2_t w1_3 = vmulq_f64(w0_3, x1);
+			const float64x2_t t12 = vmulq_f64(vdupq_n_f64(4.0), w1_3);
+			const float64x2_t t13 = vfmaq_f64(t12, h1_2, y0);
+			const float64x2_t h1_3 = vfmaq_f64(t13, h0_3, x0);
+			float64x2_t acc13 = vld1q_f64(sum + 104 + pass);
+			acc13 = vaddq_f64(acc13, h1_3);
+			vst1q_f64(sum + 104 + pass, acc13);
+			const float64x2_t w0_4 = vmulq_f64(w0_3, y1);
+			const float64x2_t h0_4 = vfmaq_f64(w0_4, h0_3, y0);
+			float64x2_t acc14 = vld1q_f64(sum + 112 + pass);
+			acc14 = vaddq_f64(acc14, h0_4);
+			vst1q_f64(sum + 112 + pass, acc14);
+			const float64x2_t w5_0 = vmulq_f64(w4_0, x1);
+			const float64x2_t h5_0 = vfmaq_f64(w5_0, h4_0, x0);
+			float64x2_t acc15 = vld1q_f64(sum + 120 + pass);
+			acc15 = vaddq_f64(acc15, h5_0);
+			vst1q_f64(sum + 120 + pass, acc15);
+			const float64x2_t w4_1 = vmulq_f64(w3_1, x1);
+			const float64x2_t t14 = vmulq_f64(vdupq_n_f64(5.0), w4_1);
+			const float64x2_t t15 = vfmaq_f64(t14, h4_0, y0);
+			const float64x2_t h4_1 = vfmaq_f64(t15, h3_1, x0);
+			float64x2_t acc16 = vld1q_f64(sum + 128 + pass);
+			acc16 = vaddq_f64(acc16, h4_1);
+			vst1q_f64(sum + 128 + pass, acc16);
+			const float64x2_t w3_2 = vmulq_f64(w2_2, x1);
+			const float64x2_t t16 = vmulq_f64(vdupq_n_f64(10.0), w3_2);
+			const float64x2_t t17 = vfmaq_f64(t16, h3_1, y0);
+			const float64x2_t h3_2 = vfmaq_f64(t17, h2_2, x0);
+			float64x2_t acc17 = vld1q_f64(sum + 136 + pass);
+			acc17 = vaddq_f64(acc17, h3_2);
+			vst1q_f64(sum + 136 + pass, acc17);
+			const float64x2_t w2_3 = vmulq_f64(w1_3, x1);
+			const float64x2_t t18 = vmulq_f64(vdupq_n_f64(10.0), w2_3);
+			const float64x2_t t19 = vfmaq_f64(t18, h2_2, y0);
+			const float64x2_t h2_3 = vfmaq_f64(t19, h1_3, x0);
+			float64x2_t acc18 = vld1q_f64(sum + 144 + pass);
+			acc18 = vaddq_f64(acc18, h2_3);
+			vst1q_f64(sum + 144 + pass, acc18);
+			const float64x2_t w1_4 = vmulq_f64(w0_4, x1);
+			const float64x2_t t20 = vmulq_f64(vdupq_n_f64(5.0), w1_4);
+			const float64x2_t t21 = vfmaq_f64(t20, h1_3, y0);
+			const float64x2_t h1_4 = vfmaq_f64(t21, h0_4, x0);
+			float64x2_t acc19 = vld1q_f64(sum + 152 + pass);
+			acc19 = vaddq_f64(acc19, h1_4);
+			vst1q_f64(sum + 152 + pass, acc19);
+			const float64x2_t w0_5 = vmulq_f64(w0_4, y1);
+			const float64x2_t h0_5 = vfmaq_f64(w0_5, h0_4, y0);
+			float64x2_t acc20 = vld1q_f64(sum + 160 + pass);
+			acc20 = vaddq_f64(acc20, h0_5);
+			vst1q_f64(sum + 160 + pass, acc20);
+			const float64x2_t w6_0 = vmulq_f64(w5_0, x1);
+			const float64x2_t h6_0 = vfmaq_f64(w6_0, h5_0, x0);
+			float64x2_t acc21 = vld1q_f64(sum + 168 + pass);
+			acc21 = vaddq_f64(acc21, h6_0);
+			vst1q_f64(sum + 168 + pass, acc21);
+			const float64x2_t w5_1 = vmulq_f64(w4_1, x1);
+			const float64x2_t t22 = vmulq_f64(vdupq_n_f64(6.0), w5_1);
+			const float64x2_t t23 = vfmaq_f64(t22, h5_0, y0);
+			const float64x2_t h5_1 = vfmaq_f64(t23, h4_1, x0);
+			float64x2_t acc22 = vld1q_f64(sum + 176 + pass);
+			acc22 = vaddq_f64(acc22, h5_1);
+			vst1q_f64(sum + 176 + pass, acc22);
+			const float64x2_t w4_2 = vmulq_f64(w3_2, x1);
+			const float64x2_t t24 = vmulq_f64(vdupq_n_f64(15.0), w4_2);
+			const float64x2_t t25 = vfmaq_f64(t24, h4_1, y0);
+			const float64x2_t h4_2 = vfmaq_f64(t25, h3_2, x0);
+			float64x2_t acc23 = vld1q_f64(sum + 184 + pass);
+			acc23 = vaddq_f64(acc23, h4_2);
+			vst1q_f64(sum + 184 + pass, acc23);
+			const float64x2_t w3_3 = vmulq_f64(w2_3, x1);
+			const float64x2_t t26 = vmulq_f64(vdupq_n_f64(20.0), w3_3);
+			const float64x2_t t27 = vfmaq_f64(t26, h3_2, y0);
+			const float64x2_t h3_3 = vfmaq_f64(t27, h2_3, x0);
+			float64x2_t acc24 = vld1q_f64(sum + 192 + pass);
+			acc24 = vaddq_f64(acc24, h3_3);
+			vst1q_f64(sum + 192 + pass, acc24);
+			const float64x2_t w2_4 = vmulq_f64(w1_4, x1);
+			const float64x2_t t28 = vmulq_f64(vdupq_n_f64(15.0), w2_4);
+			const float64x2_t t29 = vfmaq_f64(t28, h2_3, y0);
+			const float64x2_t h2_4 = vfmaq_f64(t29, h1_4, x0);
+			float64x2_t acc25 = vld1q_f64(sum + 200 + pass);
+			acc25 = vaddq_f64(acc25, h2_4);
+			vst1q_f64(sum + 200 + pass, acc25);
+			const float64x2_t w1_5 = vmulq_f64(w0_5, x1);
+			const float64x2_t t30 = vmulq_f64(vdupq_n_f64(6.0), w1_5);
+			const float64x2_t t31 = vfmaq_f64(t30, h1_4, y0);
+			const float64x2_t h1_5 = vfmaq_f64(t31, h0_5, x0);
+			float64x2_t acc26 = vld1q_f64(sum + 208 + pass);
+			acc26 = vaddq_f64(acc26, h1_5);
+			vst1q_f64(sum + 208 + pass, acc26);
+			const float64x2_t w0_6 = vmulq_f64(w0_5, y1);
+			const float64x2_t h0_6 = vfmaq_f64(w0_6, h0_5, y0);
+			float64x2_t acc27 = vld1q_f64(sum + 216 + pass);
+			acc27 = vaddq_f64(acc27, h0_6);
+			vst1q_f64(sum + 216 + pass, acc27);
+			const float64x2_t w7_0 = vmulq_f64(w6_0, x1);
+			const float64x2_t h7_0 = vfmaq_f64(w7_0, h6_0, x0);
+			float64x2_t acc28 = vld1q_f64(sum + 224 + pass);
+			acc28 = vaddq_f64(acc28, h7_0);
+			vst1q_f64(sum + 224 + pass, acc28);
+			const float64x2_t w6_1 = vmulq_f64(w5_1, x1);
+			const float64x2_t t32 = vmulq_f64(vdupq_n_f64(7.0), w6_1);
+			const float64x2_t t33 = vfmaq_f64(t32, h6_0, y0);
+			const float64x2_t h6_1 = vfmaq_f64(t33, h5_1, x0);
+			float64x2_t acc29 = vld1q_f64(sum + 232 + pass);
+			acc29 = vaddq_f64(acc29, h6_1);
+			vst1q_f64(sum + 232 + pass, acc29);
+			const float64x2_t w5_2 = vmulq_f64(w4_2, x1);
+			const float64x2_t t34 = vmulq_f64(vdupq_n_f64(21.0), w5_2);
+			const float64x2_t t35 = vfmaq_f64(t34, h5_1, y0);
+			const float64x2_t h5_2 = vfmaq_f64(t35, h4_2, x0);
+			float64x2_t acc30 = vld1q_f64(sum + 240 + pass);
+			acc30 = vaddq_f64(acc30, h5_2);
+			vst1q_f64(sum + 240 + pass, acc30);
+			const float64x2_t w4_3 = vmulq_f64(w3_3, x1);
+			const float64x2_t t36 = vmulq_f64(vdupq_n_f64(35.0), w4_3);
+			const float64x2_t t37 = vfmaq_f64(t36, h4_2, y0);
+			const float64x2_t h4_3 = vfmaq_f64(t37, h3_3, x0);
+			float64x2_t acc31 = vld1q_f64(sum + 248 + pass);
+			acc31 = vaddq_f64(acc31, h4_3);
+			vst1q_f64(sum + 248 + pass, acc31);
+			const float64x2_t w3_4 = vmulq_f64(w2_4, x1);
+			const float64x2_t t38 = vmulq_f64(vdupq_n_f64(35.0), w3_4);
+			const float64x2_t t39 = vfmaq_f64(t38, h3_3, y0);
+			const float64x2_t h3_4 = vfmaq_f64(t39, h2_4, x0);
+			float64x2_t acc32 = vld1q_f64(sum + 256 + pass);
+			acc32 = vaddq_f64(acc32, h3_4);
+			vst1q_f64(sum + 256 + pass, acc32);
+			const float64x2_t w2_5 = vmulq_f64(w1_5, x1);
+			const float64x2_t t40 = vmulq_f64(vdupq_n_f64(21.0), w2_5);
+			const float64x2_t t41 = vfmaq_f64(t40, h2_4, y0);
+			const float64x2_t h2_5 = vfmaq_f64(t41, h1_5, x0);
+			float64x2_t acc33 = vld1q_f64(sum + 264 + pass);
+			acc33 = vaddq_f64(acc33, h2_5);
+			vst1q_f64(sum + 264 + pass, acc33);
+			const float64x2_t w1_6 = vmulq_f64(w0_6, x1);
+			const float64x2_t t42 = vmulq_f64(vdupq_n_f64(7.0), w1_6);
+			const float64x2_t t43 = vfmaq_f64(t42, h1_5, y0);
+			const float64x2_t h1_6 = vfmaq_f64(t43, h0_6, x0);
+			float64x2_t acc34 = vld1q_f64(sum + 272 + pass);
+			acc34 = vaddq_f64(acc34, h1_6);
+			vst1q_f64(sum + 272 + pass, acc34);
+			const float64x2_t w0_7 = vmulq_f64(w0_6, y1);
+			const float64x2_t h0_7 = vfmaq_f64(w0_7, h0_6, y0);
+			float64x2_t acc35 = vld1q_f64(sum + 280 + pass);
+			acc35 = vaddq_f64(acc35, h0_7);
+			vst1q_f64(sum + 280 + pass, acc35);
+			float64x2_t acc36 = vld1q_f64(sum + 288 + pass);
+			const float64x2_t t44 = vfmaq_f64(acc36, w7_0, x1);
+			acc36 = vfmaq_f64(t44, h7_0, x0);
+			vst1q_f64(sum + 288 + pass, acc36);
+			float64x2_t acc37 = vld1q_f64(sum + 296 + pass);
+			const float64x2_t t45 = vfmaq_f64(acc37, h7_0, y0);
+			acc37 = vfmaq_f64(t45, h6_1, x0);
+			vst1q_f64(sum + 296 + pass, acc37);
+			float64x2_t acc38 = vld1q_f64(sum + 304 + pass);
+			const float64x2_t t46 = vfmaq_f64(acc38, h6_1, y0);
+			acc38 = vfmaq_f64(t46, h5_2, x0);
+			vst1q_f64(sum + 304 + pass, acc38);
+			float64x2_t acc39 = vld1q_f64(sum + 312 + pass);
+			const float64x2_t t47 = vfmaq_f64(acc39, h5_2, y0);
+			acc39 = vfmaq_f64(t47, h4_3, x0);
+			vst1q_f64(sum + 312 + pass, acc39);
+			float64x2_t acc40 = vld1q_f64(sum + 320 + pass);
+			const float64x2_t t48 = vfmaq_f64(acc40, h4_3, y0);
+			acc40 = vfmaq_f64(t48, h3_4, x0);
+			vst1q_f64(sum + 320 + pass, acc40);
+			float64x2_t acc41 = vld1q_f64(sum + 328 + pass);
+			const float64x2_t t49 = vfmaq_f64(acc41, h3_4, y0);
+			acc41 = vfmaq_f64(t49, h2_5, x0);
+			vst1q_f64(sum + 328 + pass, acc41);
+			float64x2_t acc42 = vld1q_f64(sum + 336 + pass);
+			const float64x2_t t50 = vfmaq_f64(acc42, h2_5, y0);
+			acc42 = vfmaq_f64(t50, h1_6, x0);
+			vst1q_f64(sum + 336 + pass, acc42);
+			float64x2_t acc43 = vld1q_f64(sum + 344 + pass);
+			const float64x2_t t51 = vfmaq_f64(acc43, h1_6, y0);
+			acc43 = vfmaq_f64(t51, h0_7, x0);
+			vst1q_f64(sum + 344 + pass, acc43);
+			float64x2_t acc44 = vld1q_f64(sum + 352 + pass);
+			const float64x2_t t52 = vfmaq_f64(acc44, w0_7, y1);
+			acc44 = vfmaq_f64(t52, h0_7, y0);
+			vst1q_f64(sum + 352 + pass, acc44);
+			float64x2_t acc45 = vld1q_f64(sum + 360 + pass);
+			acc45 = vfmaq_f64(acc45, w6_1, x1);
+			vst1q_f64(sum + 360 + pass, acc45);
+			float64x2_t acc46 = vld1q_f64(sum + 368 + pass);
+			acc46 = vfmaq_f64(acc46, w5_2, x1);
+			vst1q_f64(sum + 368 + pass, acc46);
+			float64x2_t acc47 = vld1q_f64(sum + 376 + pass);
+			acc47 = vfmaq_f64(acc47, w4_3, x1);
+			vst1q_f64(sum + 376 + pass, acc47);
+			float64x2_t acc48 = vld1q_f64(sum + 384 + pass);
+			acc48 = vfmaq_f64(acc48, w3_4, x1);
+			vst1q_f64(sum + 384 + pass, acc48);
+			float64x2_t acc49 = vld1q_f64(sum + 392 + pass);
+			acc49 = vfmaq_f64(acc49, w2_5, x1);
+			vst1q_f64(sum + 392 + pass, acc49);
+			float64x2_t acc50 = vld1q_f64(sum + 400 + pass);
+			acc50 = vfmaq_f64(acc50, w1_6, x1);
+			vst1q_f64(sum + 400 + pass, acc50);
+			float64x2_t acc51 = vld1q_f64(sum + 408 + pass);
+			acc51 = vfmaq_f64(acc51, w0_7, x1);
 			vst1q_f64(sum + 408 + pass, acc51);
 		}
 	}

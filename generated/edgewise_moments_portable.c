@@ -9,28 +9,32 @@
 #include "edgewise.h"
 #include "edgewise_kernels.h"
 
+#include <math.h>
+
 /* area; scheme vertex.
  * Cost per item: 1 mul, 3 add; 2 accumulators, 4 values alive, depth 3. */
 void ew_ring_moments_0_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
+		const double cx = origin[lane];
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += 2 * step) {
 			{
 				const double y0 = y[i];
-				const double x1 = x[i + 1];
-				const double y2 = y[i + 2];
+				const double x1 = x[i + reach];
+				const double y2 = y[i + 2 * reach];
 				const double width = x1 - cx;
 				const double height = y2 - y0;
 				const double t0 = width * height;
 				acc0 = acc0 + t0;
 			}
-			if (count - i > 8) {
-				const double y0 = y[i + 8];
-				const double x1 = x[i + 9];
-				const double y2 = y[i + 10];
+			if (count - i > step) {
+				const double y0 = y[i + step];
+				const double x1 = x[i + step + reach];
+				const double y2 = y[i + step + 2 * reach];
 				const double width = x1 - cx;
 				const double height = y2 - y0;
 				const double t0 = width * height;
@@ -45,18 +49,19 @@ void ew_ring_moments_0_portable(
 /* all moments of x^m y^n, m + n <= 1; scheme even-power.
  * Cost per item: 4 mul, 6 add; 3 accumulators, 7 values alive, depth 4. */
 void ew_ring_moments_1_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -77,21 +82,22 @@ void ew_ring_moments_1_portable(
 /* all moments of x^m y^n, m + n <= 2; scheme shared.
  * Cost per item: 12 mul, 14 add; 6 accumulators, 11 values alive, depth 6. */
 void ew_ring_moments_2_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
 		double acc3 = sum[24 + lane];
 		double acc4 = sum[32 + lane];
 		double acc5 = sum[40 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -131,10 +137,11 @@ void ew_ring_moments_2_portable(
 /* all moments of x^m y^n, m + n <= 3; scheme even-power.
  * Cost per item: 18 mul, 23 add; 15 accumulators, 11 values alive, depth 7. */
 void ew_ring_moments_3_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
@@ -150,11 +157,11 @@ void ew_ring_moments_3_portable(
 		double acc12 = sum[96 + lane];
 		double acc13 = sum[104 + lane];
 		double acc14 = sum[112 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -218,10 +225,11 @@ void ew_ring_moments_3_portable(
 /* all moments of x^m y^n, m + n <= 4; scheme even-power.
  * Cost per item: 33 mul, 34 add; 26 accumulators, 16 values alive, depth 6. */
 void ew_ring_moments_4_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
@@ -248,11 +256,11 @@ void ew_ring_moments_4_portable(
 		double acc23 = sum[184 + lane];
 		double acc24 = sum[192 + lane];
 		double acc25 = sum[200 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -353,10 +361,11 @@ void ew_ring_moments_4_portable(
 /* all moments of x^m y^n, m + n <= 5; scheme recurrence.
  * Cost per item: 58 mul, 52 add; 25 accumulators, 16 values alive, depth 16. */
 void ew_ring_moments_5_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
@@ -382,11 +391,11 @@ void ew_ring_moments_5_portable(
 		double acc22 = sum[176 + lane];
 		double acc23 = sum[184 + lane];
 		double acc24 = sum[192 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -529,10 +538,11 @@ void ew_ring_moments_5_portable(
 /* all moments of x^m y^n, m + n <= 6; scheme recurrence.
  * Cost per item: 81 mul, 71 add; 33 accumulators, 18 values alive, depth 19. */
 void ew_ring_moments_6_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
@@ -566,11 +576,11 @@ void ew_ring_moments_6_portable(
 		double acc30 = sum[240 + lane];
 		double acc31 = sum[248 + lane];
 		double acc32 = sum[256 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -763,10 +773,11 @@ void ew_ring_moments_6_portable(
 /* all moments of x^m y^n, m + n <= 7; scheme recurrence.
  * Cost per item: 108 mul, 93 add; 42 accumulators, 20 values alive, depth 22. */
 void ew_ring_moments_7_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
@@ -809,11 +820,11 @@ void ew_ring_moments_7_portable(
 		double acc39 = sum[312 + lane];
 		double acc40 = sum[320 + lane];
 		double acc41 = sum[328 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
@@ -1064,10 +1075,11 @@ void ew_ring_moments_7_portable(
 /* all moments of x^m y^n, m + n <= 8; scheme recurrence.
  * Cost per item: 139 mul, 118 add; 52 accumulators, 22 values alive, depth 25. */
 void ew_ring_moments_8_portable(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
@@ -1120,11 +1132,11 @@ void ew_ring_moments_8_portable(
 		double acc49 = sum[392 + lane];
 		double acc50 = sum[400 + lane];
 		double acc51 = sum[408 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;

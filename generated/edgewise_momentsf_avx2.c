@@ -16,40 +16,62 @@
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_0f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	const __m256 cx = _mm256_set1_ps(origin);
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
+		const __m256 cx = _mm256_loadu_ps(origin + pass);
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
 		__m256 acc1 = _mm256_loadu_ps(sum + 16 + pass);
-		for (size_t i = pass; i < count; i += 32) {
+		size_t i = pass;
+		for (; i + step + 7 < count; i += 2 * step) {
+			{
+				__m256 y0 = _mm256_loadu_ps(y + i);
+				EW_KEEP(y0);
+				__m256 x1 = _mm256_loadu_ps(x + i + reach);
+				EW_KEEP(x1);
+				__m256 y2 = _mm256_loadu_ps(y + i + 2 * reach);
+				EW_KEEP(y2);
+				const __m256 width = _mm256_sub_ps(x1, cx);
+				const __m256 height = _mm256_sub_ps(y2, y0);
+				acc0 = _mm256_fmadd_ps(width, height, acc0);
+			}
+			{
+				__m256 y0 = _mm256_loadu_ps(y + i + step);
+				EW_KEEP(y0);
+				__m256 x1 = _mm256_loadu_ps(x + i + step + reach);
+				EW_KEEP(x1);
+				__m256 y2 = _mm256_loadu_ps(y + i + step + 2 * reach);
+				EW_KEEP(y2);
+				const __m256 width = _mm256_sub_ps(x1, cx);
+				const __m256 height = _mm256_sub_ps(y2, y0);
+				acc1 = _mm256_fmadd_ps(width, height, acc1);
+			}
+		}
+		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
 				float pad[4][8];
-				const float *at_y0 = rest < 8
-					? ew_ring_padf(pad[0], y + i, rest, 8) : y + i;
+				int at = 0;
+				const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 				const __m256 y0 = _mm256_loadu_ps(at_y0);
-				const float *at_x1 = rest < 8
-					? ew_ring_padf(pad[1], x + i + 1, rest, 8) : x + i + 1;
+				const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 				const __m256 x1 = _mm256_loadu_ps(at_x1);
-				const float *at_y2 = rest < 8
-					? ew_ring_padf(pad[2], y + i + 2, rest, 8) : y + i + 2;
+				const float *at_y2 = ew_ring_padf(pad[at++], y + i + 2 * reach, rest, 8);
 				const __m256 y2 = _mm256_loadu_ps(at_y2);
 				const __m256 width = _mm256_sub_ps(x1, cx);
 				const __m256 height = _mm256_sub_ps(y2, y0);
 				acc0 = _mm256_fmadd_ps(width, height, acc0);
 			}
 			{
-				const size_t rest = count - i > 16 ? count - i - 16 : 0;
+				const size_t rest = count - i > step ? count - i - step : 0;
 				float pad[4][8];
-				const float *at_y0 = rest < 8
-					? ew_ring_padf(pad[0], y + i + 16, rest, 8) : y + i + 16;
+				int at = 0;
+				const float *at_y0 = ew_ring_padf(pad[at++], y + i + step, rest, 8);
 				const __m256 y0 = _mm256_loadu_ps(at_y0);
-				const float *at_x1 = rest < 8
-					? ew_ring_padf(pad[1], x + i + 17, rest, 8) : x + i + 17;
+				const float *at_x1 = ew_ring_padf(pad[at++], x + i + step + reach, rest, 8);
 				const __m256 x1 = _mm256_loadu_ps(at_x1);
-				const float *at_y2 = rest < 8
-					? ew_ring_padf(pad[2], y + i + 18, rest, 8) : y + i + 18;
+				const float *at_y2 = ew_ring_padf(pad[at++], y + i + step + 2 * reach, rest, 8);
 				const __m256 y2 = _mm256_loadu_ps(at_y2);
 				const __m256 width = _mm256_sub_ps(x1, cx);
 				const __m256 height = _mm256_sub_ps(y2, y0);
@@ -64,27 +86,44 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_0f_avx2(
 /* all moments of x^m y^n, m + n <= 1; scheme even-power.
  * Cost per item: 4 mul or fma, 4 add; 3 accumulators, 7 values alive, depth 3. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_1f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
 		__m256 acc1 = _mm256_loadu_ps(sum + 16 + pass);
 		__m256 acc2 = _mm256_loadu_ps(sum + 32 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			acc0 = _mm256_add_ps(acc0, s);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			acc1 = _mm256_fmadd_ps(s, a, acc1);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			acc2 = _mm256_fmadd_ps(s, b, acc2);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -104,30 +143,57 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_1f_avx2(
 /* all moments of x^m y^n, m + n <= 2; scheme shared.
  * Cost per item: 12 mul or fma, 6 add; 6 accumulators, 10 values alive, depth 4. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_2f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
 		__m256 acc1 = _mm256_loadu_ps(sum + 16 + pass);
 		__m256 acc2 = _mm256_loadu_ps(sum + 32 + pass);
 		__m256 acc3 = _mm256_loadu_ps(sum + 48 + pass);
 		__m256 acc4 = _mm256_loadu_ps(sum + 64 + pass);
 		__m256 acc5 = _mm256_loadu_ps(sum + 80 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			acc0 = _mm256_add_ps(acc0, s);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			acc1 = _mm256_fmadd_ps(s, a, acc1);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			acc2 = _mm256_fmadd_ps(s, b, acc2);
+			const __m256 t2 = _mm256_mul_ps(x1, x1);
+			const __m256 xx = _mm256_fmadd_ps(a, x0, t2);
+			acc3 = _mm256_fmadd_ps(s, xx, acc3);
+			const __m256 t3 = _mm256_add_ps(a, a);
+			const __m256 t4 = _mm256_add_ps(t0, t1);
+			const __m256 xy = _mm256_fmsub_ps(b, t3, t4);
+			acc4 = _mm256_fmadd_ps(s, xy, acc4);
+			const __m256 t5 = _mm256_mul_ps(y1, y1);
+			const __m256 yy = _mm256_fmadd_ps(b, y0, t5);
+			acc5 = _mm256_fmadd_ps(s, yy, acc5);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -160,10 +226,11 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_2f_avx2(
 /* all moments of x^m y^n, m + n <= 3; scheme even-power.
  * Cost per item: 18 mul or fma, 14 add; 15 accumulators, 11 values alive, depth 6. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_3f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
 		__m256 acc1 = _mm256_loadu_ps(sum + 16 + pass);
 		__m256 acc2 = _mm256_loadu_ps(sum + 32 + pass);
@@ -179,20 +246,60 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_3f_avx2(
 		__m256 acc12 = _mm256_loadu_ps(sum + 192 + pass);
 		__m256 acc13 = _mm256_loadu_ps(sum + 208 + pass);
 		__m256 acc14 = _mm256_loadu_ps(sum + 224 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			acc0 = _mm256_add_ps(acc0, s);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			const __m256 t2 = _mm256_mul_ps(s, a);
+			acc1 = _mm256_add_ps(acc1, t2);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			const __m256 t3 = _mm256_mul_ps(s, b);
+			acc2 = _mm256_add_ps(acc2, t3);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 t4 = _mm256_mul_ps(s, e);
+			const __m256 qxx = _mm256_mul_ps(e, t4);
+			const __m256 txx = _mm256_fmadd_ps(a, t2, qxx);
+			acc3 = _mm256_add_ps(acc3, txx);
+			acc4 = _mm256_add_ps(acc4, qxx);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 qxy = _mm256_mul_ps(f, t4);
+			const __m256 txy = _mm256_fmadd_ps(b, t2, qxy);
+			acc5 = _mm256_add_ps(acc5, txy);
+			acc6 = _mm256_add_ps(acc6, qxy);
+			const __m256 t5 = _mm256_mul_ps(s, f);
+			const __m256 qyy = _mm256_mul_ps(f, t5);
+			const __m256 tyy = _mm256_fmadd_ps(b, t3, qyy);
+			acc7 = _mm256_add_ps(acc7, tyy);
+			acc8 = _mm256_add_ps(acc8, qyy);
+			acc9 = _mm256_fmadd_ps(a, txx, acc9);
+			acc10 = _mm256_fmadd_ps(b, txx, acc10);
+			acc11 = _mm256_fmadd_ps(a, txy, acc11);
+			acc12 = _mm256_fmadd_ps(b, txy, acc12);
+			acc13 = _mm256_fmadd_ps(a, tyy, acc13);
+			acc14 = _mm256_fmadd_ps(b, tyy, acc14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -248,10 +355,11 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_3f_avx2(
 /* all moments of x^m y^n, m + n <= 4; scheme even-power.
  * Cost per item: 33 mul or fma, 12 add; 26 accumulators, 15 values alive, depth 5. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_4f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
 		__m256 acc1 = _mm256_loadu_ps(sum + 16 + pass);
 		__m256 acc2 = _mm256_loadu_ps(sum + 32 + pass);
@@ -278,20 +386,73 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_4f_avx2(
 		__m256 acc23 = _mm256_loadu_ps(sum + 368 + pass);
 		__m256 acc24 = _mm256_loadu_ps(sum + 384 + pass);
 		__m256 acc25 = _mm256_loadu_ps(sum + 400 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			acc0 = _mm256_add_ps(acc0, s);
+			const __m256 a = _mm256_add_ps(x0, x1);
+			acc1 = _mm256_fmadd_ps(s, a, acc1);
+			const __m256 b = _mm256_add_ps(y0, y1);
+			acc2 = _mm256_fmadd_ps(s, b, acc2);
+			const __m256 e = _mm256_sub_ps(x1, x0);
+			const __m256 ee = _mm256_mul_ps(e, e);
+			const __m256 rxx = _mm256_fmadd_ps(a, a, ee);
+			const __m256 txx = _mm256_mul_ps(s, rxx);
+			acc3 = _mm256_add_ps(acc3, txx);
+			const __m256 qxx = _mm256_mul_ps(s, ee);
+			acc4 = _mm256_add_ps(acc4, qxx);
+			const __m256 f = _mm256_sub_ps(y1, y0);
+			const __m256 ef = _mm256_mul_ps(e, f);
+			const __m256 rxy = _mm256_fmadd_ps(a, b, ef);
+			const __m256 txy = _mm256_mul_ps(s, rxy);
+			acc5 = _mm256_add_ps(acc5, txy);
+			const __m256 qxy = _mm256_mul_ps(s, ef);
+			acc6 = _mm256_add_ps(acc6, qxy);
+			const __m256 ff = _mm256_mul_ps(f, f);
+			const __m256 ryy = _mm256_fmadd_ps(b, b, ff);
+			const __m256 tyy = _mm256_mul_ps(s, ryy);
+			acc7 = _mm256_add_ps(acc7, tyy);
+			const __m256 qyy = _mm256_mul_ps(s, ff);
+			acc8 = _mm256_add_ps(acc8, qyy);
+			acc9 = _mm256_fmadd_ps(a, txx, acc9);
+			acc10 = _mm256_fmadd_ps(b, txx, acc10);
+			acc11 = _mm256_fmadd_ps(a, txy, acc11);
+			acc12 = _mm256_fmadd_ps(b, txy, acc12);
+			acc13 = _mm256_fmadd_ps(a, tyy, acc13);
+			acc14 = _mm256_fmadd_ps(b, tyy, acc14);
+			acc15 = _mm256_fmadd_ps(rxx, txx, acc15);
+			acc16 = _mm256_fmadd_ps(txx, rxy, acc16);
+			acc17 = _mm256_fmadd_ps(txx, ryy, acc17);
+			acc18 = _mm256_fmadd_ps(rxy, txy, acc18);
+			acc19 = _mm256_fmadd_ps(txy, ryy, acc19);
+			acc20 = _mm256_fmadd_ps(ryy, tyy, acc20);
+			acc21 = _mm256_fmadd_ps(ee, qxx, acc21);
+			acc22 = _mm256_fmadd_ps(qxx, ef, acc22);
+			acc23 = _mm256_fmadd_ps(qxx, ff, acc23);
+			acc24 = _mm256_fmadd_ps(qxy, ff, acc24);
+			acc25 = _mm256_fmadd_ps(ff, qyy, acc25);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -371,10 +532,11 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_4f_avx2(
 /* all moments of x^m y^n, m + n <= 5; scheme recurrence.
  * Cost per item: 58 mul or fma, 16 add; 25 accumulators, 16 values alive, depth 13. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_5f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
 		__m256 acc1 = _mm256_loadu_ps(sum + 16 + pass);
 		__m256 acc2 = _mm256_loadu_ps(sum + 32 + pass);
@@ -400,20 +562,102 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_5f_avx2(
 		__m256 acc22 = _mm256_loadu_ps(sum + 352 + pass);
 		__m256 acc23 = _mm256_loadu_ps(sum + 368 + pass);
 		__m256 acc24 = _mm256_loadu_ps(sum + 384 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			acc0 = _mm256_add_ps(acc0, s);
+			const __m256 w1_0 = _mm256_mul_ps(s, x1);
+			const __m256 h1_0 = _mm256_fmadd_ps(s, x0, w1_0);
+			acc1 = _mm256_add_ps(acc1, h1_0);
+			const __m256 w0_1 = _mm256_mul_ps(s, y1);
+			const __m256 h0_1 = _mm256_fmadd_ps(s, y0, w0_1);
+			acc2 = _mm256_add_ps(acc2, h0_1);
+			const __m256 w2_0 = _mm256_mul_ps(w1_0, x1);
+			const __m256 h2_0 = _mm256_fmadd_ps(h1_0, x0, w2_0);
+			acc3 = _mm256_add_ps(acc3, h2_0);
+			const __m256 w1_1 = _mm256_mul_ps(w0_1, x1);
+			const __m256 t2 = _mm256_mul_ps(_mm256_set1_ps(2.0f), w1_1);
+			const __m256 t3 = _mm256_fmadd_ps(h1_0, y0, t2);
+			const __m256 h1_1 = _mm256_fmadd_ps(h0_1, x0, t3);
+			acc4 = _mm256_add_ps(acc4, h1_1);
+			const __m256 w0_2 = _mm256_mul_ps(w0_1, y1);
+			const __m256 h0_2 = _mm256_fmadd_ps(h0_1, y0, w0_2);
+			acc5 = _mm256_add_ps(acc5, h0_2);
+			const __m256 w3_0 = _mm256_mul_ps(w2_0, x1);
+			const __m256 h3_0 = _mm256_fmadd_ps(h2_0, x0, w3_0);
+			acc6 = _mm256_add_ps(acc6, h3_0);
+			const __m256 w2_1 = _mm256_mul_ps(w1_1, x1);
+			const __m256 t4 = _mm256_mul_ps(_mm256_set1_ps(3.0f), w2_1);
+			const __m256 t5 = _mm256_fmadd_ps(h2_0, y0, t4);
+			const __m256 h2_1 = _mm256_fmadd_ps(h1_1, x0, t5);
+			acc7 = _mm256_add_ps(acc7, h2_1);
+			const __m256 w1_2 = _mm256_mul_ps(w0_2, x1);
+			const __m256 t6 = _mm256_mul_ps(_mm256_set1_ps(3.0f), w1_2);
+			const __m256 t7 = _mm256_fmadd_ps(h1_1, y0, t6);
+			const __m256 h1_2 = _mm256_fmadd_ps(h0_2, x0, t7);
+			acc8 = _mm256_add_ps(acc8, h1_2);
+			const __m256 w0_3 = _mm256_mul_ps(w0_2, y1);
+			const __m256 h0_3 = _mm256_fmadd_ps(h0_2, y0, w0_3);
+			acc9 = _mm256_add_ps(acc9, h0_3);
+			const __m256 w4_0 = _mm256_mul_ps(w3_0, x1);
+			const __m256 h4_0 = _mm256_fmadd_ps(h3_0, x0, w4_0);
+			acc10 = _mm256_add_ps(acc10, h4_0);
+			const __m256 w3_1 = _mm256_mul_ps(w2_1, x1);
+			const __m256 t8 = _mm256_mul_ps(_mm256_set1_ps(4.0f), w3_1);
+			const __m256 t9 = _mm256_fmadd_ps(h3_0, y0, t8);
+			const __m256 h3_1 = _mm256_fmadd_ps(h2_1, x0, t9);
+			acc11 = _mm256_add_ps(acc11, h3_1);
+			const __m256 w2_2 = _mm256_mul_ps(w1_2, x1);
+			const __m256 t10 = _mm256_mul_ps(_mm256_set1_ps(6.0f), w2_2);
+			const __m256 t11 = _mm256_fmadd_ps(h2_1, y0, t10);
+			const __m256 h2_2 = _mm256_fmadd_ps(h1_2, x0, t11);
+			acc12 = _mm256_add_ps(acc12, h2_2);
+			const __m256 w1_3 = _mm256_mul_ps(w0_3, x1);
+			const __m256 t12 = _mm256_mul_ps(_mm256_set1_ps(4.0f), w1_3);
+			const __m256 t13 = _mm256_fmadd_ps(h1_2, y0, t12);
+			const __m256 h1_3 = _mm256_fmadd_ps(h0_3, x0, t13);
+			acc13 = _mm256_add_ps(acc13, h1_3);
+			const __m256 w0_4 = _mm256_mul_ps(w0_3, y1);
+			const __m256 h0_4 = _mm256_fmadd_ps(h0_3, y0, w0_4);
+			acc14 = _mm256_add_ps(acc14, h0_4);
+			const __m256 t14 = _mm256_fmadd_ps(w4_0, x1, acc15);
+			acc15 = _mm256_fmadd_ps(h4_0, x0, t14);
+			const __m256 t15 = _mm256_fmadd_ps(h4_0, y0, acc16);
+			acc16 = _mm256_fmadd_ps(h3_1, x0, t15);
+			const __m256 t16 = _mm256_fmadd_ps(h3_1, y0, acc17);
+			acc17 = _mm256_fmadd_ps(h2_2, x0, t16);
+			const __m256 t17 = _mm256_fmadd_ps(h2_2, y0, acc18);
+			acc18 = _mm256_fmadd_ps(h1_3, x0, t17);
+			const __m256 t18 = _mm256_fmadd_ps(h1_3, y0, acc19);
+			acc19 = _mm256_fmadd_ps(h0_4, x0, t18);
+			const __m256 t19 = _mm256_fmadd_ps(w0_4, y1, acc20);
+			acc20 = _mm256_fmadd_ps(h0_4, y0, t19);
+			acc21 = _mm256_fmadd_ps(w3_1, x1, acc21);
+			acc22 = _mm256_fmadd_ps(w2_2, x1, acc22);
+			acc23 = _mm256_fmadd_ps(w1_3, x1, acc23);
+			acc24 = _mm256_fmadd_ps(w0_4, x1, acc24);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -521,10 +765,11 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_5f_avx2(
 /* all moments of x^m y^n, m + n <= 6; scheme recurrence.
  * Cost per item: 81 mul or fma, 22 add; 33 accumulators, 18 values alive, depth 15. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_6f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
 		__m256 acc1 = _mm256_loadu_ps(sum + 16 + pass);
 		__m256 acc2 = _mm256_loadu_ps(sum + 32 + pass);
@@ -558,20 +803,131 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_6f_avx2(
 		__m256 acc30 = _mm256_loadu_ps(sum + 480 + pass);
 		__m256 acc31 = _mm256_loadu_ps(sum + 496 + pass);
 		__m256 acc32 = _mm256_loadu_ps(sum + 512 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			acc0 = _mm256_add_ps(acc0, s);
+			const __m256 w1_0 = _mm256_mul_ps(s, x1);
+			const __m256 h1_0 = _mm256_fmadd_ps(s, x0, w1_0);
+			acc1 = _mm256_add_ps(acc1, h1_0);
+			const __m256 w0_1 = _mm256_mul_ps(s, y1);
+			const __m256 h0_1 = _mm256_fmadd_ps(s, y0, w0_1);
+			acc2 = _mm256_add_ps(acc2, h0_1);
+			const __m256 w2_0 = _mm256_mul_ps(w1_0, x1);
+			const __m256 h2_0 = _mm256_fmadd_ps(h1_0, x0, w2_0);
+			acc3 = _mm256_add_ps(acc3, h2_0);
+			const __m256 w1_1 = _mm256_mul_ps(w0_1, x1);
+			const __m256 t2 = _mm256_mul_ps(_mm256_set1_ps(2.0f), w1_1);
+			const __m256 t3 = _mm256_fmadd_ps(h1_0, y0, t2);
+			const __m256 h1_1 = _mm256_fmadd_ps(h0_1, x0, t3);
+			acc4 = _mm256_add_ps(acc4, h1_1);
+			const __m256 w0_2 = _mm256_mul_ps(w0_1, y1);
+			const __m256 h0_2 = _mm256_fmadd_ps(h0_1, y0, w0_2);
+			acc5 = _mm256_add_ps(acc5, h0_2);
+			const __m256 w3_0 = _mm256_mul_ps(w2_0, x1);
+			const __m256 h3_0 = _mm256_fmadd_ps(h2_0, x0, w3_0);
+			acc6 = _mm256_add_ps(acc6, h3_0);
+			const __m256 w2_1 = _mm256_mul_ps(w1_1, x1);
+			const __m256 t4 = _mm256_mul_ps(_mm256_set1_ps(3.0f), w2_1);
+			const __m256 t5 = _mm256_fmadd_ps(h2_0, y0, t4);
+			const __m256 h2_1 = _mm256_fmadd_ps(h1_1, x0, t5);
+			acc7 = _mm256_add_ps(acc7, h2_1);
+			const __m256 w1_2 = _mm256_mul_ps(w0_2, x1);
+			const __m256 t6 = _mm256_mul_ps(_mm256_set1_ps(3.0f), w1_2);
+			const __m256 t7 = _mm256_fmadd_ps(h1_1, y0, t6);
+			const __m256 h1_2 = _mm256_fmadd_ps(h0_2, x0, t7);
+			acc8 = _mm256_add_ps(acc8, h1_2);
+			const __m256 w0_3 = _mm256_mul_ps(w0_2, y1);
+			const __m256 h0_3 = _mm256_fmadd_ps(h0_2, y0, w0_3);
+			acc9 = _mm256_add_ps(acc9, h0_3);
+			const __m256 w4_0 = _mm256_mul_ps(w3_0, x1);
+			const __m256 h4_0 = _mm256_fmadd_ps(h3_0, x0, w4_0);
+			acc10 = _mm256_add_ps(acc10, h4_0);
+			const __m256 w3_1 = _mm256_mul_ps(w2_1, x1);
+			const __m256 t8 = _mm256_mul_ps(_mm256_set1_ps(4.0f), w3_1);
+			const __m256 t9 = _mm256_fmadd_ps(h3_0, y0, t8);
+			const __m256 h3_1 = _mm256_fmadd_ps(h2_1, x0, t9);
+			acc11 = _mm256_add_ps(acc11, h3_1);
+			const __m256 w2_2 = _mm256_mul_ps(w1_2, x1);
+			const __m256 t10 = _mm256_mul_ps(_mm256_set1_ps(6.0f), w2_2);
+			const __m256 t11 = _mm256_fmadd_ps(h2_1, y0, t10);
+			const __m256 h2_2 = _mm256_fmadd_ps(h1_2, x0, t11);
+			acc12 = _mm256_add_ps(acc12, h2_2);
+			const __m256 w1_3 = _mm256_mul_ps(w0_3, x1);
+			const __m256 t12 = _mm256_mul_ps(_mm256_set1_ps(4.0f), w1_3);
+			const __m256 t13 = _mm256_fmadd_ps(h1_2, y0, t12);
+			const __m256 h1_3 = _mm256_fmadd_ps(h0_3, x0, t13);
+			acc13 = _mm256_add_ps(acc13, h1_3);
+			const __m256 w0_4 = _mm256_mul_ps(w0_3, y1);
+			const __m256 h0_4 = _mm256_fmadd_ps(h0_3, y0, w0_4);
+			acc14 = _mm256_add_ps(acc14, h0_4);
+			const __m256 w5_0 = _mm256_mul_ps(w4_0, x1);
+			const __m256 h5_0 = _mm256_fmadd_ps(h4_0, x0, w5_0);
+			acc15 = _mm256_add_ps(acc15, h5_0);
+			const __m256 w4_1 = _mm256_mul_ps(w3_1, x1);
+			const __m256 t14 = _mm256_mul_ps(_mm256_set1_ps(5.0f), w4_1);
+			const __m256 t15 = _mm256_fmadd_ps(h4_0, y0, t14);
+			const __m256 h4_1 = _mm256_fmadd_ps(h3_1, x0, t15);
+			acc16 = _mm256_add_ps(acc16, h4_1);
+			const __m256 w3_2 = _mm256_mul_ps(w2_2, x1);
+			const __m256 t16 = _mm256_mul_ps(_mm256_set1_ps(10.0f), w3_2);
+			const __m256 t17 = _mm256_fmadd_ps(h3_1, y0, t16);
+			const __m256 h3_2 = _mm256_fmadd_ps(h2_2, x0, t17);
+			acc17 = _mm256_add_ps(acc17, h3_2);
+			const __m256 w2_3 = _mm256_mul_ps(w1_3, x1);
+			const __m256 t18 = _mm256_mul_ps(_mm256_set1_ps(10.0f), w2_3);
+			const __m256 t19 = _mm256_fmadd_ps(h2_2, y0, t18);
+			const __m256 h2_3 = _mm256_fmadd_ps(h1_3, x0, t19);
+			acc18 = _mm256_add_ps(acc18, h2_3);
+			const __m256 w1_4 = _mm256_mul_ps(w0_4, x1);
+			const __m256 t20 = _mm256_mul_ps(_mm256_set1_ps(5.0f), w1_4);
+			const __m256 t21 = _mm256_fmadd_ps(h1_3, y0, t20);
+			const __m256 h1_4 = _mm256_fmadd_ps(h0_4, x0, t21);
+			acc19 = _mm256_add_ps(acc19, h1_4);
+			const __m256 w0_5 = _mm256_mul_ps(w0_4, y1);
+			const __m256 h0_5 = _mm256_fmadd_ps(h0_4, y0, w0_5);
+			acc20 = _mm256_add_ps(acc20, h0_5);
+			const __m256 t22 = _mm256_fmadd_ps(w5_0, x1, acc21);
+			acc21 = _mm256_fmadd_ps(h5_0, x0, t22);
+			const __m256 t23 = _mm256_fmadd_ps(h5_0, y0, acc22);
+			acc22 = _mm256_fmadd_ps(h4_1, x0, t23);
+			const __m256 t24 = _mm256_fmadd_ps(h4_1, y0, acc23);
+			acc23 = _mm256_fmadd_ps(h3_2, x0, t24);
+			const __m256 t25 = _mm256_fmadd_ps(h3_2, y0, acc24);
+			acc24 = _mm256_fmadd_ps(h2_3, x0, t25);
+			const __m256 t26 = _mm256_fmadd_ps(h2_3, y0, acc25);
+			acc25 = _mm256_fmadd_ps(h1_4, x0, t26);
+			const __m256 t27 = _mm256_fmadd_ps(h1_4, y0, acc26);
+			acc26 = _mm256_fmadd_ps(h0_5, x0, t27);
+			const __m256 t28 = _mm256_fmadd_ps(w0_5, y1, acc27);
+			acc27 = _mm256_fmadd_ps(h0_5, y0, t28);
+			acc28 = _mm256_fmadd_ps(w4_1, x1, acc28);
+			acc29 = _mm256_fmadd_ps(w3_2, x1, acc29);
+			acc30 = _mm256_fmadd_ps(w2_3, x1, acc30);
+			acc31 = _mm256_fmadd_ps(w1_4, x1, acc31);
+			acc32 = _mm256_fmadd_ps(w0_5, x1, acc32);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -716,10 +1072,11 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_6f_avx2(
 /* all moments of x^m y^n, m + n <= 7; scheme recurrence.
  * Cost per item: 108 mul or fma, 29 add; 42 accumulators, 20 values alive, depth 17. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_7f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
 		__m256 acc1 = _mm256_loadu_ps(sum + 16 + pass);
 		__m256 acc2 = _mm256_loadu_ps(sum + 32 + pass);
@@ -762,20 +1119,165 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_7f_avx2(
 		__m256 acc39 = _mm256_loadu_ps(sum + 624 + pass);
 		__m256 acc40 = _mm256_loadu_ps(sum + 640 + pass);
 		__m256 acc41 = _mm256_loadu_ps(sum + 656 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			acc0 = _mm256_add_ps(acc0, s);
+			const __m256 w1_0 = _mm256_mul_ps(s, x1);
+			const __m256 h1_0 = _mm256_fmadd_ps(s, x0, w1_0);
+			acc1 = _mm256_add_ps(acc1, h1_0);
+			const __m256 w0_1 = _mm256_mul_ps(s, y1);
+			const __m256 h0_1 = _mm256_fmadd_ps(s, y0, w0_1);
+			acc2 = _mm256_add_ps(acc2, h0_1);
+			const __m256 w2_0 = _mm256_mul_ps(w1_0, x1);
+			const __m256 h2_0 = _mm256_fmadd_ps(h1_0, x0, w2_0);
+			acc3 = _mm256_add_ps(acc3, h2_0);
+			const __m256 w1_1 = _mm256_mul_ps(w0_1, x1);
+			const __m256 t2 = _mm256_mul_ps(_mm256_set1_ps(2.0f), w1_1);
+			const __m256 t3 = _mm256_fmadd_ps(h1_0, y0, t2);
+			const __m256 h1_1 = _mm256_fmadd_ps(h0_1, x0, t3);
+			acc4 = _mm256_add_ps(acc4, h1_1);
+			const __m256 w0_2 = _mm256_mul_ps(w0_1, y1);
+			const __m256 h0_2 = _mm256_fmadd_ps(h0_1, y0, w0_2);
+			acc5 = _mm256_add_ps(acc5, h0_2);
+			const __m256 w3_0 = _mm256_mul_ps(w2_0, x1);
+			const __m256 h3_0 = _mm256_fmadd_ps(h2_0, x0, w3_0);
+			acc6 = _mm256_add_ps(acc6, h3_0);
+			const __m256 w2_1 = _mm256_mul_ps(w1_1, x1);
+			const __m256 t4 = _mm256_mul_ps(_mm256_set1_ps(3.0f), w2_1);
+			const __m256 t5 = _mm256_fmadd_ps(h2_0, y0, t4);
+			const __m256 h2_1 = _mm256_fmadd_ps(h1_1, x0, t5);
+			acc7 = _mm256_add_ps(acc7, h2_1);
+			const __m256 w1_2 = _mm256_mul_ps(w0_2, x1);
+			const __m256 t6 = _mm256_mul_ps(_mm256_set1_ps(3.0f), w1_2);
+			const __m256 t7 = _mm256_fmadd_ps(h1_1, y0, t6);
+			const __m256 h1_2 = _mm256_fmadd_ps(h0_2, x0, t7);
+			acc8 = _mm256_add_ps(acc8, h1_2);
+			const __m256 w0_3 = _mm256_mul_ps(w0_2, y1);
+			const __m256 h0_3 = _mm256_fmadd_ps(h0_2, y0, w0_3);
+			acc9 = _mm256_add_ps(acc9, h0_3);
+			const __m256 w4_0 = _mm256_mul_ps(w3_0, x1);
+			const __m256 h4_0 = _mm256_fmadd_ps(h3_0, x0, w4_0);
+			acc10 = _mm256_add_ps(acc10, h4_0);
+			const __m256 w3_1 = _mm256_mul_ps(w2_1, x1);
+			const __m256 t8 = _mm256_mul_ps(_mm256_set1_ps(4.0f), w3_1);
+			const __m256 t9 = _mm256_fmadd_ps(h3_0, y0, t8);
+			const __m256 h3_1 = _mm256_fmadd_ps(h2_1, x0, t9);
+			acc11 = _mm256_add_ps(acc11, h3_1);
+			const __m256 w2_2 = _mm256_mul_ps(w1_2, x1);
+			const __m256 t10 = _mm256_mul_ps(_mm256_set1_ps(6.0f), w2_2);
+			const __m256 t11 = _mm256_fmadd_ps(h2_1, y0, t10);
+			const __m256 h2_2 = _mm256_fmadd_ps(h1_2, x0, t11);
+			acc12 = _mm256_add_ps(acc12, h2_2);
+			const __m256 w1_3 = _mm256_mul_ps(w0_3, x1);
+			const __m256 t12 = _mm256_mul_ps(_mm256_set1_ps(4.0f), w1_3);
+			const __m256 t13 = _mm256_fmadd_ps(h1_2, y0, t12);
+			const __m256 h1_3 = _mm256_fmadd_ps(h0_3, x0, t13);
+			acc13 = _mm256_add_ps(acc13, h1_3);
+			const __m256 w0_4 = _mm256_mul_ps(w0_3, y1);
+			const __m256 h0_4 = _mm256_fmadd_ps(h0_3, y0, w0_4);
+			acc14 = _mm256_add_ps(acc14, h0_4);
+			const __m256 w5_0 = _mm256_mul_ps(w4_0, x1);
+			const __m256 h5_0 = _mm256_fmadd_ps(h4_0, x0, w5_0);
+			acc15 = _mm256_add_ps(acc15, h5_0);
+			const __m256 w4_1 = _mm256_mul_ps(w3_1, x1);
+			const __m256 t14 = _mm256_mul_ps(_mm256_set1_ps(5.0f), w4_1);
+			const __m256 t15 = _mm256_fmadd_ps(h4_0, y0, t14);
+			const __m256 h4_1 = _mm256_fmadd_ps(h3_1, x0, t15);
+			acc16 = _mm256_add_ps(acc16, h4_1);
+			const __m256 w3_2 = _mm256_mul_ps(w2_2, x1);
+			const __m256 t16 = _mm256_mul_ps(_mm256_set1_ps(10.0f), w3_2);
+			const __m256 t17 = _mm256_fmadd_ps(h3_1, y0, t16);
+			const __m256 h3_2 = _mm256_fmadd_ps(h2_2, x0, t17);
+			acc17 = _mm256_add_ps(acc17, h3_2);
+			const __m256 w2_3 = _mm256_mul_ps(w1_3, x1);
+			const __m256 t18 = _mm256_mul_ps(_mm256_set1_ps(10.0f), w2_3);
+			const __m256 t19 = _mm256_fmadd_ps(h2_2, y0, t18);
+			const __m256 h2_3 = _mm256_fmadd_ps(h1_3, x0, t19);
+			acc18 = _mm256_add_ps(acc18, h2_3);
+			const __m256 w1_4 = _mm256_mul_ps(w0_4, x1);
+			const __m256 t20 = _mm256_mul_ps(_mm256_set1_ps(5.0f), w1_4);
+			const __m256 t21 = _mm256_fmadd_ps(h1_3, y0, t20);
+			const __m256 h1_4 = _mm256_fmadd_ps(h0_4, x0, t21);
+			acc19 = _mm256_add_ps(acc19, h1_4);
+			const __m256 w0_5 = _mm256_mul_ps(w0_4, y1);
+			const __m256 h0_5 = _mm256_fmadd_ps(h0_4, y0, w0_5);
+			acc20 = _mm256_add_ps(acc20, h0_5);
+			const __m256 w6_0 = _mm256_mul_ps(w5_0, x1);
+			const __m256 h6_0 = _mm256_fmadd_ps(h5_0, x0, w6_0);
+			acc21 = _mm256_add_ps(acc21, h6_0);
+			const __m256 w5_1 = _mm256_mul_ps(w4_1, x1);
+			const __m256 t22 = _mm256_mul_ps(_mm256_set1_ps(6.0f), w5_1);
+			const __m256 t23 = _mm256_fmadd_ps(h5_0, y0, t22);
+			const __m256 h5_1 = _mm256_fmadd_ps(h4_1, x0, t23);
+			acc22 = _mm256_add_ps(acc22, h5_1);
+			const __m256 w4_2 = _mm256_mul_ps(w3_2, x1);
+			const __m256 t24 = _mm256_mul_ps(_mm256_set1_ps(15.0f), w4_2);
+			const __m256 t25 = _mm256_fmadd_ps(h4_1, y0, t24);
+			const __m256 h4_2 = _mm256_fmadd_ps(h3_2, x0, t25);
+			acc23 = _mm256_add_ps(acc23, h4_2);
+			const __m256 w3_3 = _mm256_mul_ps(w2_3, x1);
+			const __m256 t26 = _mm256_mul_ps(_mm256_set1_ps(20.0f), w3_3);
+			const __m256 t27 = _mm256_fmadd_ps(h3_2, y0, t26);
+			const __m256 h3_3 = _mm256_fmadd_ps(h2_3, x0, t27);
+			acc24 = _mm256_add_ps(acc24, h3_3);
+			const __m256 w2_4 = _mm256_mul_ps(w1_4, x1);
+			const __m256 t28 = _mm256_mul_ps(_mm256_set1_ps(15.0f), w2_4);
+			const __m256 t29 = _mm256_fmadd_ps(h2_3, y0, t28);
+			const __m256 h2_4 = _mm256_fmadd_ps(h1_4, x0, t29);
+			acc25 = _mm256_add_ps(acc25, h2_4);
+			const __m256 w1_5 = _mm256_mul_ps(w0_5, x1);
+			const __m256 t30 = _mm256_mul_ps(_mm256_set1_ps(6.0f), w1_5);
+			const __m256 t31 = _mm256_fmadd_ps(h1_4, y0, t30);
+			const __m256 h1_5 = _mm256_fmadd_ps(h0_5, x0, t31);
+			acc26 = _mm256_add_ps(acc26, h1_5);
+			const __m256 w0_6 = _mm256_mul_ps(w0_5, y1);
+			const __m256 h0_6 = _mm256_fmadd_ps(h0_5, y0, w0_6);
+			acc27 = _mm256_add_ps(acc27, h0_6);
+			const __m256 t32 = _mm256_fmadd_ps(w6_0, x1, acc28);
+			acc28 = _mm256_fmadd_ps(h6_0, x0, t32);
+			const __m256 t33 = _mm256_fmadd_ps(h6_0, y0, acc29);
+			acc29 = _mm256_fmadd_ps(h5_1, x0, t33);
+			const __m256 t34 = _mm256_fmadd_ps(h5_1, y0, acc30);
+			acc30 = _mm256_fmadd_ps(h4_2, x0, t34);
+			const __m256 t35 = _mm256_fmadd_ps(h4_2, y0, acc31);
+			acc31 = _mm256_fmadd_ps(h3_3, x0, t35);
+			const __m256 t36 = _mm256_fmadd_ps(h3_3, y0, acc32);
+			acc32 = _mm256_fmadd_ps(h2_4, x0, t36);
+			const __m256 t37 = _mm256_fmadd_ps(h2_4, y0, acc33);
+			acc33 = _mm256_fmadd_ps(h1_5, x0, t37);
+			const __m256 t38 = _mm256_fmadd_ps(h1_5, y0, acc34);
+			acc34 = _mm256_fmadd_ps(h0_6, x0, t38);
+			const __m256 t39 = _mm256_fmadd_ps(w0_6, y1, acc35);
+			acc35 = _mm256_fmadd_ps(h0_6, y0, t39);
+			acc36 = _mm256_fmadd_ps(w5_1, x1, acc36);
+			acc37 = _mm256_fmadd_ps(w4_2, x1, acc37);
+			acc38 = _mm256_fmadd_ps(w3_3, x1, acc38);
+			acc39 = _mm256_fmadd_ps(w2_4, x1, acc39);
+			acc40 = _mm256_fmadd_ps(w1_5, x1, acc40);
+			acc41 = _mm256_fmadd_ps(w0_6, x1, acc41);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);
@@ -963,10 +1465,11 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_7f_avx2(
 /* all moments of x^m y^n, m + n <= 8; scheme recurrence.
  * Cost per item: 139 mul or fma, 37 add; 52 accumulators, 22 values alive, depth 19. */
 EW_ATTRIBUTE_AVX2 void ew_ring_moments_8f_avx2(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 8) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
 		__m256 acc0 = _mm256_loadu_ps(sum + pass);
 		__m256 acc1 = _mm256_loadu_ps(sum + 16 + pass);
 		__m256 acc2 = _mm256_loadu_ps(sum + 32 + pass);
@@ -1019,20 +1522,204 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_8f_avx2(
 		__m256 acc49 = _mm256_loadu_ps(sum + 784 + pass);
 		__m256 acc50 = _mm256_loadu_ps(sum + 800 + pass);
 		__m256 acc51 = _mm256_loadu_ps(sum + 816 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 7 < count; i += step) {
+			__m256 x0 = _mm256_loadu_ps(x + i);
+			EW_KEEP(x0);
+			__m256 y0 = _mm256_loadu_ps(y + i);
+			EW_KEEP(y0);
+			__m256 x1 = _mm256_loadu_ps(x + i + reach);
+			EW_KEEP(x1);
+			__m256 y1 = _mm256_loadu_ps(y + i + reach);
+			EW_KEEP(y1);
+			const __m256 t0 = _mm256_mul_ps(x0, y1);
+			const __m256 t1 = _mm256_mul_ps(x1, y0);
+			const __m256 s = _mm256_sub_ps(t0, t1);
+			acc0 = _mm256_add_ps(acc0, s);
+			const __m256 w1_0 = _mm256_mul_ps(s, x1);
+			const __m256 h1_0 = _mm256_fmadd_ps(s, x0, w1_0);
+			acc1 = _mm256_add_ps(acc1, h1_0);
+			const __m256 w0_1 = _mm256_mul_ps(s, y1);
+			const __m256 h0_1 = _mm256_fmadd_ps(s, y0, w0_1);
+			acc2 = _mm256_add_ps(acc2, h0_1);
+			const __m256 w2_0 = _mm256_mul_ps(w1_0, x1);
+			const __m256 h2_0 = _mm256_fmadd_ps(h1_0, x0, w2_0);
+			acc3 = _mm256_add_ps(acc3, h2_0);
+			const __m256 w1_1 = _mm256_mul_ps(w0_1, x1);
+			const __m256 t2 = _mm256_mul_ps(_mm256_set1_ps(2.0f), w1_1);
+			const __m256 t3 = _mm256_fmadd_ps(h1_0, y0, t2);
+			const __m256 h1_1 = _mm256_fmadd_ps(h0_1, x0, t3);
+			acc4 = _mm256_add_ps(acc4, h1_1);
+			const __m256 w0_2 = _mm256_mul_ps(w0_1, y1);
+			const __m256 h0_2 = _mm256_fmadd_ps(h0_1, y0, w0_2);
+			acc5 = _mm256_add_ps(acc5, h0_2);
+			const __m256 w3_0 = _mm256_mul_ps(w2_0, x1);
+			const __m256 h3_0 = _mm256_fmadd_ps(h2_0, x0, w3_0);
+			acc6 = _mm256_add_ps(acc6, h3_0);
+			const __m256 w2_1 = _mm256_mul_ps(w1_1, x1);
+			const __m256 t4 = _mm256_mul_ps(_mm256_set1_ps(3.0f), w2_1);
+			const __m256 t5 = _mm256_fmadd_ps(h2_0, y0, t4);
+			const __m256 h2_1 = _mm256_fmadd_ps(h1_1, x0, t5);
+			acc7 = _mm256_add_ps(acc7, h2_1);
+			const __m256 w1_2 = _mm256_mul_ps(w0_2, x1);
+			const __m256 t6 = _mm256_mul_ps(_mm256_set1_ps(3.0f), w1_2);
+			const __m256 t7 = _mm256_fmadd_ps(h1_1, y0, t6);
+			const __m256 h1_2 = _mm256_fmadd_ps(h0_2, x0, t7);
+			acc8 = _mm256_add_ps(acc8, h1_2);
+			const __m256 w0_3 = _mm256_mul_ps(w0_2, y1);
+			const __m256 h0_3 = _mm256_fmadd_ps(h0_2, y0, w0_3);
+			acc9 = _mm256_add_ps(acc9, h0_3);
+			const __m256 w4_0 = _mm256_mul_ps(w3_0, x1);
+			const __m256 h4_0 = _mm256_fmadd_ps(h3_0, x0, w4_0);
+			acc10 = _mm256_add_ps(acc10, h4_0);
+			const __m256 w3_1 = _mm256_mul_ps(w2_1, x1);
+			const __m256 t8 = _mm256_mul_ps(_mm256_set1_ps(4.0f), w3_1);
+			const __m256 t9 = _mm256_fmadd_ps(h3_0, y0, t8);
+			const __m256 h3_1 = _mm256_fmadd_ps(h2_1, x0, t9);
+			acc11 = _mm256_add_ps(acc11, h3_1);
+			const __m256 w2_2 = _mm256_mul_ps(w1_2, x1);
+			const __m256 t10 = _mm256_mul_ps(_mm256_set1_ps(6.0f), w2_2);
+			const __m256 t11 = _mm256_fmadd_ps(h2_1, y0, t10);
+			const __m256 h2_2 = _mm256_fmadd_ps(h1_2, x0, t11);
+			acc12 = _mm256_add_ps(acc12, h2_2);
+			const __m256 w1_3 = _mm256_mul_ps(w0_3, x1);
+			const __m256 t12 = _mm256_mul_ps(_mm256_set1_ps(4.0f), w1_3);
+			const __m256 t13 = _mm256_fmadd_ps(h1_2, y0, t12);
+			const __m256 h1_3 = _mm256_fmadd_ps(h0_3, x0, t13);
+			acc13 = _mm256_add_ps(acc13, h1_3);
+			const __m256 w0_4 = _mm256_mul_ps(w0_3, y1);
+			const __m256 h0_4 = _mm256_fmadd_ps(h0_3, y0, w0_4);
+			acc14 = _mm256_add_ps(acc14, h0_4);
+			const __m256 w5_0 = _mm256_mul_ps(w4_0, x1);
+			const __m256 h5_0 = _mm256_fmadd_ps(h4_0, x0, w5_0);
+			acc15 = _mm256_add_ps(acc15, h5_0);
+			const __m256 w4_1 = _mm256_mul_ps(w3_1, x1);
+			const __m256 t14 = _mm256_mul_ps(_mm256_set1_ps(5.0f), w4_1);
+			const __m256 t15 = _mm256_fmadd_ps(h4_0, y0, t14);
+			const __m256 h4_1 = _mm256_fmadd_ps(h3_1, x0, t15);
+			acc16 = _mm256_add_ps(acc16, h4_1);
+			const __m256 w3_2 = _mm256_mul_ps(w2_2, x1);
+			const __m256 t16 = _mm256_mul_ps(_mm256_set1_ps(10.0f), w3_2);
+			const __m256 t17 = _mm256_fmadd_ps(h3_1, y0, t16);
+			const __m256 h3_2 = _mm256_fmadd_ps(h2_2, x0, t17);
+			acc17 = _mm256_add_ps(acc17, h3_2);
+			const __m256 w2_3 = _mm256_mul_ps(w1_3, x1);
+			const __m256 t18 = _mm256_mul_ps(_mm256_set1_ps(10.0f), w2_3);
+			const __m256 t19 = _mm256_fmadd_ps(h2_2, y0, t18);
+			const __m256 h2_3 = _mm256_fmadd_ps(h1_3, x0, t19);
+			acc18 = _mm256_add_ps(acc18, h2_3);
+			const __m256 w1_4 = _mm256_mul_ps(w0_4, x1);
+			const __m256 t20 = _mm256_mul_ps(_mm256_set1_ps(5.0f), w1_4);
+			const __m256 t21 = _mm256_fmadd_ps(h1_3, y0, t20);
+			const __m256 h1_4 = _mm256_fmadd_ps(h0_4, x0, t21);
+			acc19 = _mm256_add_ps(acc19, h1_4);
+			const __m256 w0_5 = _mm256_mul_ps(w0_4, y1);
+			const __m256 h0_5 = _mm256_fmadd_ps(h0_4, y0, w0_5);
+			acc20 = _mm256_add_ps(acc20, h0_5);
+			const __m256 w6_0 = _mm256_mul_ps(w5_0, x1);
+			const __m256 h6_0 = _mm256_fmadd_ps(h5_0, x0, w6_0);
+			acc21 = _mm256_add_ps(acc21, h6_0);
+			const __m256 w5_1 = _mm256_mul_ps(w4_1, x1);
+			const __m256 t22 = _mm256_mul_ps(_mm256_set1_ps(6.0f), w5_1);
+			const __m256 t23 = _mm256_fmadd_ps(h5_0, y0, t22);
+			const __m256 h5_1 = _mm256_fmadd_ps(h4_1, x0, t23);
+			acc22 = _mm256_add_ps(acc22, h5_1);
+			const __m256 w4_2 = _mm256_mul_ps(w3_2, x1);
+			const __m256 t24 = _mm256_mul_ps(_mm256_set1_ps(15.0f), w4_2);
+			const __m256 t25 = _mm256_fmadd_ps(h4_1, y0, t24);
+			const __m256 h4_2 = _mm256_fmadd_ps(h3_2, x0, t25);
+			acc23 = _mm256_add_ps(acc23, h4_2);
+			const __m256 w3_3 = _mm256_mul_ps(w2_3, x1);
+			const __m256 t26 = _mm256_mul_ps(_mm256_set1_ps(20.0f), w3_3);
+			const __m256 t27 = _mm256_fmadd_ps(h3_2, y0, t26);
+			const __m256 h3_3 = _mm256_fmadd_ps(h2_3, x0, t27);
+			acc24 = _mm256_add_ps(acc24, h3_3);
+			const __m256 w2_4 = _mm256_mul_ps(w1_4, x1);
+			const __m256 t28 = _mm256_mul_ps(_mm256_set1_ps(15.0f), w2_4);
+			const __m256 t29 = _mm256_fmadd_ps(h2_3, y0, t28);
+			const __m256 h2_4 = _mm256_fmadd_ps(h1_4, x0, t29);
+			acc25 = _mm256_add_ps(acc25, h2_4);
+			const __m256 w1_5 = _mm256_mul_ps(w0_5, x1);
+			const __m256 t30 = _mm256_mul_ps(_mm256_set1_ps(6.0f), w1_5);
+			const __m256 t31 = _mm256_fmadd_ps(h1_4, y0, t30);
+			const __m256 h1_5 = _mm256_fmadd_ps(h0_5, x0, t31);
+			acc26 = _mm256_add_ps(acc26, h1_5);
+			const __m256 w0_6 = _mm256_mul_ps(w0_5, y1);
+			const __m256 h0_6 = _mm256_fmadd_ps(h0_5, y0, w0_6);
+			acc27 = _mm256_add_ps(acc27, h0_6);
+			const __m256 w7_0 = _mm256_mul_ps(w6_0, x1);
+			const __m256 h7_0 = _mm256_fmadd_ps(h6_0, x0, w7_0);
+			acc28 = _mm256_add_ps(acc28, h7_0);
+			const __m256 w6_1 = _mm256_mul_ps(w5_1, x1);
+			const __m256 t32 = _mm256_mul_ps(_mm256_set1_ps(7.0f), w6_1);
+			const __m256 t33 = _mm256_fmadd_ps(h6_0, y0, t32);
+			const __m256 h6_1 = _mm256_fmadd_ps(h5_1, x0, t33);
+			acc29 = _mm256_add_ps(acc29, h6_1);
+			const __m256 w5_2 = _mm256_mul_ps(w4_2, x1);
+			const __m256 t34 = _mm256_mul_ps(_mm256_set1_ps(21.0f), w5_2);
+			const __m256 t35 = _mm256_fmadd_ps(h5_1, y0, t34);
+			const __m256 h5_2 = _mm256_fmadd_ps(h4_2, x0, t35);
+			acc30 = _mm256_add_ps(acc30, h5_2);
+			const __m256 w4_3 = _mm256_mul_ps(w3_3, x1);
+			const __m256 t36 = _mm256_mul_ps(_mm256_set1_ps(35.0f), w4_3);
+			const __m256 t37 = _mm256_fmadd_ps(h4_2, y0, t36);
+			const __m256 h4_3 = _mm256_fmadd_ps(h3_3, x0, t37);
+			acc31 = _mm256_add_ps(acc31, h4_3);
+			const __m256 w3_4 = _mm256_mul_ps(w2_4, x1);
+			const __m256 t38 = _mm256_mul_ps(_mm256_set1_ps(35.0f), w3_4);
+			const __m256 t39 = _mm256_fmadd_ps(h3_3, y0, t38);
+			const __m256 h3_4 = _mm256_fmadd_ps(h2_4, x0, t39);
+			acc32 = _mm256_add_ps(acc32, h3_4);
+			const __m256 w2_5 = _mm256_mul_ps(w1_5, x1);
+			const __m256 t40 = _mm256_mul_ps(_mm256_set1_ps(21.0f), w2_5);
+			const __m256 t41 = _mm256_fmadd_ps(h2_4, y0, t40);
+			const __m256 h2_5 = _mm256_fmadd_ps(h1_5, x0, t41);
+			acc33 = _mm256_add_ps(acc33, h2_5);
+			const __m256 w1_6 = _mm256_mul_ps(w0_6, x1);
+			const __m256 t42 = _mm256_mul_ps(_mm256_set1_ps(7.0f), w1_6);
+			const __m256 t43 = _mm256_fmadd_ps(h1_5, y0, t42);
+			const __m256 h1_6 = _mm256_fmadd_ps(h0_6, x0, t43);
+			acc34 = _mm256_add_ps(acc34, h1_6);
+			const __m256 w0_7 = _mm256_mul_ps(w0_6, y1);
+			const __m256 h0_7 = _mm256_fmadd_ps(h0_6, y0, w0_7);
+			acc35 = _mm256_add_ps(acc35, h0_7);
+			const __m256 t44 = _mm256_fmadd_ps(w7_0, x1, acc36);
+			acc36 = _mm256_fmadd_ps(h7_0, x0, t44);
+			const __m256 t45 = _mm256_fmadd_ps(h7_0, y0, acc37);
+			acc37 = _mm256_fmadd_ps(h6_1, x0, t45);
+			const __m256 t46 = _mm256_fmadd_ps(h6_1, y0, acc38);
+			acc38 = _mm256_fmadd_ps(h5_2, x0, t46);
+			const __m256 t47 = _mm256_fmadd_ps(h5_2, y0, acc39);
+			acc39 = _mm256_fmadd_ps(h4_3, x0, t47);
+			const __m256 t48 = _mm256_fmadd_ps(h4_3, y0, acc40);
+			acc40 = _mm256_fmadd_ps(h3_4, x0, t48);
+			const __m256 t49 = _mm256_fmadd_ps(h3_4, y0, acc41);
+			acc41 = _mm256_fmadd_ps(h2_5, x0, t49);
+			const __m256 t50 = _mm256_fmadd_ps(h2_5, y0, acc42);
+			acc42 = _mm256_fmadd_ps(h1_6, x0, t50);
+			const __m256 t51 = _mm256_fmadd_ps(h1_6, y0, acc43);
+			acc43 = _mm256_fmadd_ps(h0_7, x0, t51);
+			const __m256 t52 = _mm256_fmadd_ps(w0_7, y1, acc44);
+			acc44 = _mm256_fmadd_ps(h0_7, y0, t52);
+			acc45 = _mm256_fmadd_ps(w6_1, x1, acc45);
+			acc46 = _mm256_fmadd_ps(w5_2, x1, acc46);
+			acc47 = _mm256_fmadd_ps(w4_3, x1, acc47);
+			acc48 = _mm256_fmadd_ps(w3_4, x1, acc48);
+			acc49 = _mm256_fmadd_ps(w2_5, x1, acc49);
+			acc50 = _mm256_fmadd_ps(w1_6, x1, acc50);
+			acc51 = _mm256_fmadd_ps(w0_7, x1, acc51);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][8];
-			const float *at_x0 = rest < 8
-				? ew_ring_padf(pad[0], x + i, rest, 8) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 8);
 			const __m256 x0 = _mm256_loadu_ps(at_x0);
-			const float *at_y0 = rest < 8
-				? ew_ring_padf(pad[1], y + i, rest, 8) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 			const __m256 y0 = _mm256_loadu_ps(at_y0);
-			const float *at_x1 = rest < 8
-				? ew_ring_padf(pad[2], x + i + 1, rest, 8) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 8);
 			const __m256 x1 = _mm256_loadu_ps(at_x1);
-			const float *at_y1 = rest < 8
-				? ew_ring_padf(pad[3], y + i + 1, rest, 8) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 8);
 			const __m256 y1 = _mm256_loadu_ps(at_y1);
 			const __m256 t0 = _mm256_mul_ps(x0, y1);
 			const __m256 t1 = _mm256_mul_ps(x1, y0);

@@ -16,72 +16,79 @@
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_0f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	const __m512 cx = _mm512_set1_ps(origin);
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
+		const __m512 cx = _mm512_loadu_ps(origin + pass);
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
 		__m512 acc1 = _mm512_loadu_ps(sum + 16 + pass);
-		size_t next = 0;
-		if (next + 48 < count + 3) {
+		size_t i = pass;
+		if (reach == 1 && step == 16 && i + 48 < count + 3) {
 			__m512 xa = _mm512_loadu_ps(x);
 			__m512 ya = _mm512_loadu_ps(y);
-			for (; next + 48 < count + 3; next += 32) {
+			for (; i + 48 < count + 3; i += 32) {
 				{
-					const __m512 xb = _mm512_loadu_ps(x + next + 16);
-					const __m512 yb = _mm512_loadu_ps(y + next + 16);
-				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y2 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 2));
-				const __m512 width = _mm512_sub_ps(x1, cx);
-				const __m512 height = _mm512_sub_ps(y2, y0);
-				acc0 = _mm512_fmadd_ps(width, height, acc0);
+					const __m512 xb = _mm512_loadu_ps(x + i + 16);
+					const __m512 yb = _mm512_loadu_ps(y + i + 16);
+					const __m512 y0 = ya;
+					const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+					const __m512 y2 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 2));
+					const __m512 width = _mm512_sub_ps(x1, cx);
+					const __m512 height = _mm512_sub_ps(y2, y0);
+					acc0 = _mm512_fmadd_ps(width, height, acc0);
 					xa = xb;
 					ya = yb;
 				}
 				{
-					const __m512 xb = _mm512_loadu_ps(x + next + 32);
-					const __m512 yb = _mm512_loadu_ps(y + next + 32);
-				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y2 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 2));
-				const __m512 width = _mm512_sub_ps(x1, cx);
-				const __m512 height = _mm512_sub_ps(y2, y0);
-				acc1 = _mm512_fmadd_ps(width, height, acc1);
+					const __m512 xb = _mm512_loadu_ps(x + i + 32);
+					const __m512 yb = _mm512_loadu_ps(y + i + 32);
+					const __m512 y0 = ya;
+					const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+					const __m512 y2 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 2));
+					const __m512 width = _mm512_sub_ps(x1, cx);
+					const __m512 height = _mm512_sub_ps(y2, y0);
+					acc1 = _mm512_fmadd_ps(width, height, acc1);
 					xa = xb;
 					ya = yb;
 				}
 			}
 		}
-		for (size_t i = next; i < count; i += 32) {
+		for (; i + step + 15 < count; i += 2 * step) {
 			{
-				const size_t rest = count - i;
-				float pad[4][16];
-				const float *at_y0 = rest < 16
-					? ew_ring_padf(pad[0], y + i, rest, 16) : y + i;
-				const __m512 y0 = _mm512_loadu_ps(at_y0);
-				const float *at_x1 = rest < 16
-					? ew_ring_padf(pad[1], x + i + 1, rest, 16) : x + i + 1;
-				const __m512 x1 = _mm512_loadu_ps(at_x1);
-				const float *at_y2 = rest < 16
-					? ew_ring_padf(pad[2], y + i + 2, rest, 16) : y + i + 2;
-				const __m512 y2 = _mm512_loadu_ps(at_y2);
+				const __m512 y0 = _mm512_loadu_ps(y + i);
+				const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+				const __m512 y2 = _mm512_loadu_ps(y + i + 2 * reach);
 				const __m512 width = _mm512_sub_ps(x1, cx);
 				const __m512 height = _mm512_sub_ps(y2, y0);
 				acc0 = _mm512_fmadd_ps(width, height, acc0);
 			}
 			{
-				const size_t rest = count - i > 16 ? count - i - 16 : 0;
-				float pad[4][16];
-				const float *at_y0 = rest < 16
-					? ew_ring_padf(pad[0], y + i + 16, rest, 16) : y + i + 16;
-				const __m512 y0 = _mm512_loadu_ps(at_y0);
-				const float *at_x1 = rest < 16
-					? ew_ring_padf(pad[1], x + i + 17, rest, 16) : x + i + 17;
-				const __m512 x1 = _mm512_loadu_ps(at_x1);
-				const float *at_y2 = rest < 16
-					? ew_ring_padf(pad[2], y + i + 18, rest, 16) : y + i + 18;
-				const __m512 y2 = _mm512_loadu_ps(at_y2);
+				const __m512 y0 = _mm512_loadu_ps(y + i + step);
+				const __m512 x1 = _mm512_loadu_ps(x + i + step + reach);
+				const __m512 y2 = _mm512_loadu_ps(y + i + step + 2 * reach);
+				const __m512 width = _mm512_sub_ps(x1, cx);
+				const __m512 height = _mm512_sub_ps(y2, y0);
+				acc1 = _mm512_fmadd_ps(width, height, acc1);
+			}
+		}
+		for (; i < count; i += 2 * step) {
+			{
+				const size_t rest = count - i;
+				const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+				const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+				const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+				const __m512 y2 = _mm512_maskz_loadu_ps(mask, y + i + 2 * reach);
+				const __m512 width = _mm512_sub_ps(x1, cx);
+				const __m512 height = _mm512_sub_ps(y2, y0);
+				acc0 = _mm512_fmadd_ps(width, height, acc0);
+			}
+			{
+				const size_t rest = count - i > step ? count - i - step : 0;
+				const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+				const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i + step);
+				const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + step + reach);
+				const __m512 y2 = _mm512_maskz_loadu_ps(mask, y + i + step + 2 * reach);
 				const __m512 width = _mm512_sub_ps(x1, cx);
 				const __m512 height = _mm512_sub_ps(y2, y0);
 				acc1 = _mm512_fmadd_ps(width, height, acc1);
@@ -95,53 +102,60 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_0f_avx512(
 /* all moments of x^m y^n, m + n <= 1; scheme even-power.
  * Cost per item: 4 mul or fma, 4 add; 3 accumulators, 7 values alive, depth 3. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_1f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
 		__m512 acc1 = _mm512_loadu_ps(sum + 16 + pass);
 		__m512 acc2 = _mm512_loadu_ps(sum + 32 + pass);
-		size_t next = 0;
-		if (next + 32 < count + 2) {
+		size_t i = pass;
+		if (reach == 1 && step == 16 && i + 32 < count + 2) {
 			__m512 xa = _mm512_loadu_ps(x);
 			__m512 ya = _mm512_loadu_ps(y);
-			for (; next + 32 < count + 2; next += 16) {
+			for (; i + 32 < count + 2; i += 16) {
 				{
-					const __m512 xb = _mm512_loadu_ps(x + next + 16);
-					const __m512 yb = _mm512_loadu_ps(y + next + 16);
-				const __m512 x0 = xa;
-				const __m512 y0 = ya;
-				const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
-				const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
-				const __m512 t0 = _mm512_mul_ps(x0, y1);
-				const __m512 t1 = _mm512_mul_ps(x1, y0);
-				const __m512 s = _mm512_sub_ps(t0, t1);
-				acc0 = _mm512_add_ps(acc0, s);
-				const __m512 a = _mm512_add_ps(x0, x1);
-				acc1 = _mm512_fmadd_ps(s, a, acc1);
-				const __m512 b = _mm512_add_ps(y0, y1);
-				acc2 = _mm512_fmadd_ps(s, b, acc2);
+					const __m512 xb = _mm512_loadu_ps(x + i + 16);
+					const __m512 yb = _mm512_loadu_ps(y + i + 16);
+					const __m512 x0 = xa;
+					const __m512 y0 = ya;
+					const __m512 x1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(xb), _mm512_castps_si512(xa), 1));
+					const __m512 y1 = _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(yb), _mm512_castps_si512(ya), 1));
+					const __m512 t0 = _mm512_mul_ps(x0, y1);
+					const __m512 t1 = _mm512_mul_ps(x1, y0);
+					const __m512 s = _mm512_sub_ps(t0, t1);
+					acc0 = _mm512_add_ps(acc0, s);
+					const __m512 a = _mm512_add_ps(x0, x1);
+					acc1 = _mm512_fmadd_ps(s, a, acc1);
+					const __m512 b = _mm512_add_ps(y0, y1);
+					acc2 = _mm512_fmadd_ps(s, b, acc2);
 					xa = xb;
 					ya = yb;
 				}
 			}
 		}
-		for (size_t i = next; i < count; i += 16) {
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			acc0 = _mm512_add_ps(acc0, s);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			acc1 = _mm512_fmadd_ps(s, a, acc1);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			acc2 = _mm512_fmadd_ps(s, b, acc2);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -160,31 +174,49 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_1f_avx512(
 /* all moments of x^m y^n, m + n <= 2; scheme shared.
  * Cost per item: 12 mul or fma, 6 add; 6 accumulators, 10 values alive, depth 4. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_2f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
 		__m512 acc1 = _mm512_loadu_ps(sum + 16 + pass);
 		__m512 acc2 = _mm512_loadu_ps(sum + 32 + pass);
 		__m512 acc3 = _mm512_loadu_ps(sum + 48 + pass);
 		__m512 acc4 = _mm512_loadu_ps(sum + 64 + pass);
 		__m512 acc5 = _mm512_loadu_ps(sum + 80 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			acc0 = _mm512_add_ps(acc0, s);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			acc1 = _mm512_fmadd_ps(s, a, acc1);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			acc2 = _mm512_fmadd_ps(s, b, acc2);
+			const __m512 t2 = _mm512_mul_ps(x1, x1);
+			const __m512 xx = _mm512_fmadd_ps(a, x0, t2);
+			acc3 = _mm512_fmadd_ps(s, xx, acc3);
+			const __m512 t3 = _mm512_add_ps(a, a);
+			const __m512 t4 = _mm512_add_ps(t0, t1);
+			const __m512 xy = _mm512_fmsub_ps(b, t3, t4);
+			acc4 = _mm512_fmadd_ps(s, xy, acc4);
+			const __m512 t5 = _mm512_mul_ps(y1, y1);
+			const __m512 yy = _mm512_fmadd_ps(b, y0, t5);
+			acc5 = _mm512_fmadd_ps(s, yy, acc5);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -216,10 +248,11 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_2f_avx512(
 /* all moments of x^m y^n, m + n <= 3; scheme even-power.
  * Cost per item: 18 mul or fma, 14 add; 15 accumulators, 11 values alive, depth 6. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_3f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
 		__m512 acc1 = _mm512_loadu_ps(sum + 16 + pass);
 		__m512 acc2 = _mm512_loadu_ps(sum + 32 + pass);
@@ -235,21 +268,52 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_3f_avx512(
 		__m512 acc12 = _mm512_loadu_ps(sum + 192 + pass);
 		__m512 acc13 = _mm512_loadu_ps(sum + 208 + pass);
 		__m512 acc14 = _mm512_loadu_ps(sum + 224 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			acc0 = _mm512_add_ps(acc0, s);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			const __m512 t2 = _mm512_mul_ps(s, a);
+			acc1 = _mm512_add_ps(acc1, t2);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			const __m512 t3 = _mm512_mul_ps(s, b);
+			acc2 = _mm512_add_ps(acc2, t3);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 t4 = _mm512_mul_ps(s, e);
+			const __m512 qxx = _mm512_mul_ps(e, t4);
+			const __m512 txx = _mm512_fmadd_ps(a, t2, qxx);
+			acc3 = _mm512_add_ps(acc3, txx);
+			acc4 = _mm512_add_ps(acc4, qxx);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 qxy = _mm512_mul_ps(f, t4);
+			const __m512 txy = _mm512_fmadd_ps(b, t2, qxy);
+			acc5 = _mm512_add_ps(acc5, txy);
+			acc6 = _mm512_add_ps(acc6, qxy);
+			const __m512 t5 = _mm512_mul_ps(s, f);
+			const __m512 qyy = _mm512_mul_ps(f, t5);
+			const __m512 tyy = _mm512_fmadd_ps(b, t3, qyy);
+			acc7 = _mm512_add_ps(acc7, tyy);
+			acc8 = _mm512_add_ps(acc8, qyy);
+			acc9 = _mm512_fmadd_ps(a, txx, acc9);
+			acc10 = _mm512_fmadd_ps(b, txx, acc10);
+			acc11 = _mm512_fmadd_ps(a, txy, acc11);
+			acc12 = _mm512_fmadd_ps(b, txy, acc12);
+			acc13 = _mm512_fmadd_ps(a, tyy, acc13);
+			acc14 = _mm512_fmadd_ps(b, tyy, acc14);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -304,10 +368,11 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_3f_avx512(
 /* all moments of x^m y^n, m + n <= 4; scheme even-power.
  * Cost per item: 33 mul or fma, 12 add; 26 accumulators, 15 values alive, depth 5. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_4f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
 		__m512 acc0 = _mm512_loadu_ps(sum + pass);
 		__m512 acc1 = _mm512_loadu_ps(sum + 16 + pass);
 		__m512 acc2 = _mm512_loadu_ps(sum + 32 + pass);
@@ -334,21 +399,65 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_4f_avx512(
 		__m512 acc23 = _mm512_loadu_ps(sum + 368 + pass);
 		__m512 acc24 = _mm512_loadu_ps(sum + 384 + pass);
 		__m512 acc25 = _mm512_loadu_ps(sum + 400 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 15 < count; i += step) {
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			acc0 = _mm512_add_ps(acc0, s);
+			const __m512 a = _mm512_add_ps(x0, x1);
+			acc1 = _mm512_fmadd_ps(s, a, acc1);
+			const __m512 b = _mm512_add_ps(y0, y1);
+			acc2 = _mm512_fmadd_ps(s, b, acc2);
+			const __m512 e = _mm512_sub_ps(x1, x0);
+			const __m512 ee = _mm512_mul_ps(e, e);
+			const __m512 rxx = _mm512_fmadd_ps(a, a, ee);
+			const __m512 txx = _mm512_mul_ps(s, rxx);
+			acc3 = _mm512_add_ps(acc3, txx);
+			const __m512 qxx = _mm512_mul_ps(s, ee);
+			acc4 = _mm512_add_ps(acc4, qxx);
+			const __m512 f = _mm512_sub_ps(y1, y0);
+			const __m512 ef = _mm512_mul_ps(e, f);
+			const __m512 rxy = _mm512_fmadd_ps(a, b, ef);
+			const __m512 txy = _mm512_mul_ps(s, rxy);
+			acc5 = _mm512_add_ps(acc5, txy);
+			const __m512 qxy = _mm512_mul_ps(s, ef);
+			acc6 = _mm512_add_ps(acc6, qxy);
+			const __m512 ff = _mm512_mul_ps(f, f);
+			const __m512 ryy = _mm512_fmadd_ps(b, b, ff);
+			const __m512 tyy = _mm512_mul_ps(s, ryy);
+			acc7 = _mm512_add_ps(acc7, tyy);
+			const __m512 qyy = _mm512_mul_ps(s, ff);
+			acc8 = _mm512_add_ps(acc8, qyy);
+			acc9 = _mm512_fmadd_ps(a, txx, acc9);
+			acc10 = _mm512_fmadd_ps(b, txx, acc10);
+			acc11 = _mm512_fmadd_ps(a, txy, acc11);
+			acc12 = _mm512_fmadd_ps(b, txy, acc12);
+			acc13 = _mm512_fmadd_ps(a, tyy, acc13);
+			acc14 = _mm512_fmadd_ps(b, tyy, acc14);
+			acc15 = _mm512_fmadd_ps(rxx, txx, acc15);
+			acc16 = _mm512_fmadd_ps(txx, rxy, acc16);
+			acc17 = _mm512_fmadd_ps(txx, ryy, acc17);
+			acc18 = _mm512_fmadd_ps(rxy, txy, acc18);
+			acc19 = _mm512_fmadd_ps(txy, ryy, acc19);
+			acc20 = _mm512_fmadd_ps(ryy, tyy, acc20);
+			acc21 = _mm512_fmadd_ps(ee, qxx, acc21);
+			acc22 = _mm512_fmadd_ps(qxx, ef, acc22);
+			acc23 = _mm512_fmadd_ps(qxx, ff, acc23);
+			acc24 = _mm512_fmadd_ps(qxy, ff, acc24);
+			acc25 = _mm512_fmadd_ps(ff, qyy, acc25);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
@@ -427,189 +536,376 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_4f_avx512(
 /* all moments of x^m y^n, m + n <= 5; scheme recurrence.
  * Cost per item: 58 mul or fma, 16 add; 25 accumulators, 16 values alive, depth 13. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_5f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
-		__m512 acc0 = _mm512_loadu_ps(sum + pass);
-		__m512 acc1 = _mm512_loadu_ps(sum + 16 + pass);
-		__m512 acc2 = _mm512_loadu_ps(sum + 32 + pass);
-		__m512 acc3 = _mm512_loadu_ps(sum + 48 + pass);
-		__m512 acc4 = _mm512_loadu_ps(sum + 64 + pass);
-		__m512 acc5 = _mm512_loadu_ps(sum + 80 + pass);
-		__m512 acc6 = _mm512_loadu_ps(sum + 96 + pass);
-		__m512 acc7 = _mm512_loadu_ps(sum + 112 + pass);
-		__m512 acc8 = _mm512_loadu_ps(sum + 128 + pass);
-		__m512 acc9 = _mm512_loadu_ps(sum + 144 + pass);
-		__m512 acc10 = _mm512_loadu_ps(sum + 160 + pass);
-		__m512 acc11 = _mm512_loadu_ps(sum + 176 + pass);
-		__m512 acc12 = _mm512_loadu_ps(sum + 192 + pass);
-		__m512 acc13 = _mm512_loadu_ps(sum + 208 + pass);
-		__m512 acc14 = _mm512_loadu_ps(sum + 224 + pass);
-		__m512 acc15 = _mm512_loadu_ps(sum + 240 + pass);
-		__m512 acc16 = _mm512_loadu_ps(sum + 256 + pass);
-		__m512 acc17 = _mm512_loadu_ps(sum + 272 + pass);
-		__m512 acc18 = _mm512_loadu_ps(sum + 288 + pass);
-		__m512 acc19 = _mm512_loadu_ps(sum + 304 + pass);
-		__m512 acc20 = _mm512_loadu_ps(sum + 320 + pass);
-		__m512 acc21 = _mm512_loadu_ps(sum + 336 + pass);
-		__m512 acc22 = _mm512_loadu_ps(sum + 352 + pass);
-		__m512 acc23 = _mm512_loadu_ps(sum + 368 + pass);
-		__m512 acc24 = _mm512_loadu_ps(sum + 384 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
+		size_t i = pass;
+		for (; i + step + 15 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 x0_2 = _mm512_loadu_ps(x + i + step);
+			const __m512 y0_2 = _mm512_loadu_ps(y + i + step);
+			const __m512 x1_2 = _mm512_loadu_ps(x + i + step + reach);
+			const __m512 y1_2 = _mm512_loadu_ps(y + i + step + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t0_2 = _mm512_mul_ps(x0_2, y1_2);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 t1_2 = _mm512_mul_ps(x1_2, y0_2);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			const __m512 s_2 = _mm512_sub_ps(t0_2, t1_2);
+			__m512 acc0 = _mm512_loadu_ps(sum + pass);
+			acc0 = _mm512_add_ps(acc0, s);
+			acc0 = _mm512_add_ps(acc0, s_2);
+			_mm512_storeu_ps(sum + pass, acc0);
+			const __m512 w1_0 = _mm512_mul_ps(s, x1);
+			const __m512 w1_0_2 = _mm512_mul_ps(s_2, x1_2);
+			const __m512 h1_0 = _mm512_fmadd_ps(s, x0, w1_0);
+			const __m512 h1_0_2 = _mm512_fmadd_ps(s_2, x0_2, w1_0_2);
+			__m512 acc1 = _mm512_loadu_ps(sum + 16 + pass);
+			acc1 = _mm512_add_ps(acc1, h1_0);
+			acc1 = _mm512_add_ps(acc1, h1_0_2);
+			_mm512_storeu_ps(sum + 16 + pass, acc1);
+			const __m512 w0_1 = _mm512_mul_ps(s, y1);
+			const __m512 w0_1_2 = _mm512_mul_ps(s_2, y1_2);
+			const __m512 h0_1 = _mm512_fmadd_ps(s, y0, w0_1);
+			const __m512 h0_1_2 = _mm512_fmadd_ps(s_2, y0_2, w0_1_2);
+			__m512 acc2 = _mm512_loadu_ps(sum + 32 + pass);
+			acc2 = _mm512_add_ps(acc2, h0_1);
+			acc2 = _mm512_add_ps(acc2, h0_1_2);
+			_mm512_storeu_ps(sum + 32 + pass, acc2);
+			const __m512 w2_0 = _mm512_mul_ps(w1_0, x1);
+			const __m512 w2_0_2 = _mm512_mul_ps(w1_0_2, x1_2);
+			const __m512 h2_0 = _mm512_fmadd_ps(h1_0, x0, w2_0);
+			const __m512 h2_0_2 = _mm512_fmadd_ps(h1_0_2, x0_2, w2_0_2);
+			__m512 acc3 = _mm512_loadu_ps(sum + 48 + pass);
+			acc3 = _mm512_add_ps(acc3, h2_0);
+			acc3 = _mm512_add_ps(acc3, h2_0_2);
+			_mm512_storeu_ps(sum + 48 + pass, acc3);
+			const __m512 w1_1 = _mm512_mul_ps(w0_1, x1);
+			const __m512 w1_1_2 = _mm512_mul_ps(w0_1_2, x1_2);
+			const __m512 t2 = _mm512_mul_ps(_mm512_set1_ps(2.0f), w1_1);
+			const __m512 t2_2 = _mm512_mul_ps(_mm512_set1_ps(2.0f), w1_1_2);
+			const __m512 t3 = _mm512_fmadd_ps(h1_0, y0, t2);
+			const __m512 t3_2 = _mm512_fmadd_ps(h1_0_2, y0_2, t2_2);
+			const __m512 h1_1 = _mm512_fmadd_ps(h0_1, x0, t3);
+			const __m512 h1_1_2 = _mm512_fmadd_ps(h0_1_2, x0_2, t3_2);
+			__m512 acc4 = _mm512_loadu_ps(sum + 64 + pass);
+			acc4 = _mm512_add_ps(acc4, h1_1);
+			acc4 = _mm512_add_ps(acc4, h1_1_2);
+			_mm512_storeu_ps(sum + 64 + pass, acc4);
+			const __m512 w0_2 = _mm512_mul_ps(w0_1, y1);
+			const __m512 w0_2_2 = _mm512_mul_ps(w0_1_2, y1_2);
+			const __m512 h0_2 = _mm512_fmadd_ps(h0_1, y0, w0_2);
+			const __m512 h0_2_2 = _mm512_fmadd_ps(h0_1_2, y0_2, w0_2_2);
+			__m512 acc5 = _mm512_loadu_ps(sum + 80 + pass);
+			acc5 = _mm512_add_ps(acc5, h0_2);
+			acc5 = _mm512_add_ps(acc5, h0_2_2);
+			_mm512_storeu_ps(sum + 80 + pass, acc5);
+			const __m512 w3_0 = _mm512_mul_ps(w2_0, x1);
+			const __m512 w3_0_2 = _mm512_mul_ps(w2_0_2, x1_2);
+			const __m512 h3_0 = _mm512_fmadd_ps(h2_0, x0, w3_0);
+			const __m512 h3_0_2 = _mm512_fmadd_ps(h2_0_2, x0_2, w3_0_2);
+			__m512 acc6 = _mm512_loadu_ps(sum + 96 + pass);
+			acc6 = _mm512_add_ps(acc6, h3_0);
+			acc6 = _mm512_add_ps(acc6, h3_0_2);
+			_mm512_storeu_ps(sum + 96 + pass, acc6);
+			const __m512 w2_1 = _mm512_mul_ps(w1_1, x1);
+			const __m512 w2_1_2 = _mm512_mul_ps(w1_1_2, x1_2);
+			const __m512 t4 = _mm512_mul_ps(_mm512_set1_ps(3.0f), w2_1);
+			const __m512 t4_2 = _mm512_mul_ps(_mm512_set1_ps(3.0f), w2_1_2);
+			const __m512 t5 = _mm512_fmadd_ps(h2_0, y0, t4);
+			const __m512 t5_2 = _mm512_fmadd_ps(h2_0_2, y0_2, t4_2);
+			const __m512 h2_1 = _mm512_fmadd_ps(h1_1, x0, t5);
+			const __m512 h2_1_2 = _mm512_fmadd_ps(h1_1_2, x0_2, t5_2);
+			__m512 acc7 = _mm512_loadu_ps(sum + 112 + pass);
+			acc7 = _mm512_add_ps(acc7, h2_1);
+			acc7 = _mm512_add_ps(acc7, h2_1_2);
+			_mm512_storeu_ps(sum + 112 + pass, acc7);
+			const __m512 w1_2 = _mm512_mul_ps(w0_2, x1);
+			const __m512 w1_2_2 = _mm512_mul_ps(w0_2_2, x1_2);
+			const __m512 t6 = _mm512_mul_ps(_mm512_set1_ps(3.0f), w1_2);
+			const __m512 t6_2 = _mm512_mul_ps(_mm512_set1_ps(3.0f), w1_2_2);
+			const __m512 t7 = _mm512_fmadd_ps(h1_1, y0, t6);
+			const __m512 t7_2 = _mm512_fmadd_ps(h1_1_2, y0_2, t6_2);
+			const __m512 h1_2 = _mm512_fmadd_ps(h0_2, x0, t7);
+			const __m512 h1_2_2 = _mm512_fmadd_ps(h0_2_2, x0_2, t7_2);
+			__m512 acc8 = _mm512_loadu_ps(sum + 128 + pass);
+			acc8 = _mm512_add_ps(acc8, h1_2);
+			acc8 = _mm512_add_ps(acc8, h1_2_2);
+			_mm512_storeu_ps(sum + 128 + pass, acc8);
+			const __m512 w0_3 = _mm512_mul_ps(w0_2, y1);
+			const __m512 w0_3_2 = _mm512_mul_ps(w0_2_2, y1_2);
+			const __m512 h0_3 = _mm512_fmadd_ps(h0_2, y0, w0_3);
+			const __m512 h0_3_2 = _mm512_fmadd_ps(h0_2_2, y0_2, w0_3_2);
+			__m512 acc9 = _mm512_loadu_ps(sum + 144 + pass);
+			acc9 = _mm512_add_ps(acc9, h0_3);
+			acc9 = _mm512_add_ps(acc9, h0_3_2);
+			_mm512_storeu_ps(sum + 144 + pass, acc9);
+			const __m512 w4_0 = _mm512_mul_ps(w3_0, x1);
+			const __m512 w4_0_2 = _mm512_mul_ps(w3_0_2, x1_2);
+			const __m512 h4_0 = _mm512_fmadd_ps(h3_0, x0, w4_0);
+			const __m512 h4_0_2 = _mm512_fmadd_ps(h3_0_2, x0_2, w4_0_2);
+			__m512 acc10 = _mm512_loadu_ps(sum + 160 + pass);
+			acc10 = _mm512_add_ps(acc10, h4_0);
+			acc10 = _mm512_add_ps(acc10, h4_0_2);
+			_mm512_storeu_ps(sum + 160 + pass, acc10);
+			const __m512 w3_1 = _mm512_mul_ps(w2_1, x1);
+			const __m512 w3_1_2 = _mm512_mul_ps(w2_1_2, x1_2);
+			const __m512 t8 = _mm512_mul_ps(_mm512_set1_ps(4.0f), w3_1);
+			const __m512 t8_2 = _mm512_mul_ps(_mm512_set1_ps(4.0f), w3_1_2);
+			const __m512 t9 = _mm512_fmadd_ps(h3_0, y0, t8);
+			const __m512 t9_2 = _mm512_fmadd_ps(h3_0_2, y0_2, t8_2);
+			const __m512 h3_1 = _mm512_fmadd_ps(h2_1, x0, t9);
+			const __m512 h3_1_2 = _mm512_fmadd_ps(h2_1_2, x0_2, t9_2);
+			__m512 acc11 = _mm512_loadu_ps(sum + 176 + pass);
+			acc11 = _mm512_add_ps(acc11, h3_1);
+			acc11 = _mm512_add_ps(acc11, h3_1_2);
+			_mm512_storeu_ps(sum + 176 + pass, acc11);
+			const __m512 w2_2 = _mm512_mul_ps(w1_2, x1);
+			const __m512 w2_2_2 = _mm512_mul_ps(w1_2_2, x1_2);
+			const __m512 t10 = _mm512_mul_ps(_mm512_set1_ps(6.0f), w2_2);
+			const __m512 t10_2 = _mm512_mul_ps(_mm512_set1_ps(6.0f), w2_2_2);
+			const __m512 t11 = _mm512_fmadd_ps(h2_1, y0, t10);
+			const __m512 t11_2 = _mm512_fmadd_ps(h2_1_2, y0_2, t10_2);
+			const __m512 h2_2 = _mm512_fmadd_ps(h1_2, x0, t11);
+			const __m512 h2_2_2 = _mm512_fmadd_ps(h1_2_2, x0_2, t11_2);
+			__m512 acc12 = _mm512_loadu_ps(sum + 192 + pass);
+			acc12 = _mm512_add_ps(acc12, h2_2);
+			acc12 = _mm512_add_ps(acc12, h2_2_2);
+			_mm512_storeu_ps(sum + 192 + pass, acc12);
+			const __m512 w1_3 = _mm512_mul_ps(w0_3, x1);
+			const __m512 w1_3_2 = _mm512_mul_ps(w0_3_2, x1_2);
+			const __m512 t12 = _mm512_mul_ps(_mm512_set1_ps(4.0f), w1_3);
+			const __m512 t12_2 = _mm512_mul_ps(_mm512_set1_ps(4.0f), w1_3_2);
+			const __m512 t13 = _mm512_fmadd_ps(h1_2, y0, t12);
+			const __m512 t13_2 = _mm512_fmadd_ps(h1_2_2, y0_2, t12_2);
+			const __m512 h1_3 = _mm512_fmadd_ps(h0_3, x0, t13);
+			const __m512 h1_3_2 = _mm512_fmadd_ps(h0_3_2, x0_2, t13_2);
+			__m512 acc13 = _mm512_loadu_ps(sum + 208 + pass);
+			acc13 = _mm512_add_ps(acc13, h1_3);
+			acc13 = _mm512_add_ps(acc13, h1_3_2);
+			_mm512_storeu_ps(sum + 208 + pass, acc13);
+			const __m512 w0_4 = _mm512_mul_ps(w0_3, y1);
+			const __m512 w0_4_2 = _mm512_mul_ps(w0_3_2, y1_2);
+			const __m512 h0_4 = _mm512_fmadd_ps(h0_3, y0, w0_4);
+			const __m512 h0_4_2 = _mm512_fmadd_ps(h0_3_2, y0_2, w0_4_2);
+			__m512 acc14 = _mm512_loadu_ps(sum + 224 + pass);
+			acc14 = _mm512_add_ps(acc14, h0_4);
+			acc14 = _mm512_add_ps(acc14, h0_4_2);
+			_mm512_storeu_ps(sum + 224 + pass, acc14);
+			__m512 acc15 = _mm512_loadu_ps(sum + 240 + pass);
+			const __m512 t14 = _mm512_fmadd_ps(w4_0, x1, acc15);
+			acc15 = _mm512_fmadd_ps(h4_0, x0, t14);
+			const __m512 t14_2 = _mm512_fmadd_ps(w4_0_2, x1_2, acc15);
+			acc15 = _mm512_fmadd_ps(h4_0_2, x0_2, t14_2);
+			_mm512_storeu_ps(sum + 240 + pass, acc15);
+			__m512 acc16 = _mm512_loadu_ps(sum + 256 + pass);
+			const __m512 t15 = _mm512_fmadd_ps(h4_0, y0, acc16);
+			acc16 = _mm512_fmadd_ps(h3_1, x0, t15);
+			const __m512 t15_2 = _mm512_fmadd_ps(h4_0_2, y0_2, acc16);
+			acc16 = _mm512_fmadd_ps(h3_1_2, x0_2, t15_2);
+			_mm512_storeu_ps(sum + 256 + pass, acc16);
+			__m512 acc17 = _mm512_loadu_ps(sum + 272 + pass);
+			const __m512 t16 = _mm512_fmadd_ps(h3_1, y0, acc17);
+			acc17 = _mm512_fmadd_ps(h2_2, x0, t16);
+			const __m512 t16_2 = _mm512_fmadd_ps(h3_1_2, y0_2, acc17);
+			acc17 = _mm512_fmadd_ps(h2_2_2, x0_2, t16_2);
+			_mm512_storeu_ps(sum + 272 + pass, acc17);
+			__m512 acc18 = _mm512_loadu_ps(sum + 288 + pass);
+			const __m512 t17 = _mm512_fmadd_ps(h2_2, y0, acc18);
+			acc18 = _mm512_fmadd_ps(h1_3, x0, t17);
+			const __m512 t17_2 = _mm512_fmadd_ps(h2_2_2, y0_2, acc18);
+			acc18 = _mm512_fmadd_ps(h1_3_2, x0_2, t17_2);
+			_mm512_storeu_ps(sum + 288 + pass, acc18);
+			__m512 acc19 = _mm512_loadu_ps(sum + 304 + pass);
+			const __m512 t18 = _mm512_fmadd_ps(h1_3, y0, acc19);
+			acc19 = _mm512_fmadd_ps(h0_4, x0, t18);
+			const __m512 t18_2 = _mm512_fmadd_ps(h1_3_2, y0_2, acc19);
+			acc19 = _mm512_fmadd_ps(h0_4_2, x0_2, t18_2);
+			_mm512_storeu_ps(sum + 304 + pass, acc19);
+			__m512 acc20 = _mm512_loadu_ps(sum + 320 + pass);
+			const __m512 t19 = _mm512_fmadd_ps(w0_4, y1, acc20);
+			acc20 = _mm512_fmadd_ps(h0_4, y0, t19);
+			const __m512 t19_2 = _mm512_fmadd_ps(w0_4_2, y1_2, acc20);
+			acc20 = _mm512_fmadd_ps(h0_4_2, y0_2, t19_2);
+			_mm512_storeu_ps(sum + 320 + pass, acc20);
+			__m512 acc21 = _mm512_loadu_ps(sum + 336 + pass);
+			acc21 = _mm512_fmadd_ps(w3_1, x1, acc21);
+			acc21 = _mm512_fmadd_ps(w3_1_2, x1_2, acc21);
+			_mm512_storeu_ps(sum + 336 + pass, acc21);
+			__m512 acc22 = _mm512_loadu_ps(sum + 352 + pass);
+			acc22 = _mm512_fmadd_ps(w2_2, x1, acc22);
+			acc22 = _mm512_fmadd_ps(w2_2_2, x1_2, acc22);
+			_mm512_storeu_ps(sum + 352 + pass, acc22);
+			__m512 acc23 = _mm512_loadu_ps(sum + 368 + pass);
+			acc23 = _mm512_fmadd_ps(w1_3, x1, acc23);
+			acc23 = _mm512_fmadd_ps(w1_3_2, x1_2, acc23);
+			_mm512_storeu_ps(sum + 368 + pass, acc23);
+			__m512 acc24 = _mm512_loadu_ps(sum + 384 + pass);
+			acc24 = _mm512_fmadd_ps(w0_4, x1, acc24);
+			acc24 = _mm512_fmadd_ps(w0_4_2, x1_2, acc24);
+			_mm512_storeu_ps(sum + 384 + pass, acc24);
+		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
 			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
 			const __m512 s = _mm512_sub_ps(t0, t1);
+			__m512 acc0 = _mm512_loadu_ps(sum + pass);
 			acc0 = _mm512_add_ps(acc0, s);
+			_mm512_storeu_ps(sum + pass, acc0);
 			const __m512 w1_0 = _mm512_mul_ps(s, x1);
 			const __m512 h1_0 = _mm512_fmadd_ps(s, x0, w1_0);
+			__m512 acc1 = _mm512_loadu_ps(sum + 16 + pass);
 			acc1 = _mm512_add_ps(acc1, h1_0);
+			_mm512_storeu_ps(sum + 16 + pass, acc1);
 			const __m512 w0_1 = _mm512_mul_ps(s, y1);
 			const __m512 h0_1 = _mm512_fmadd_ps(s, y0, w0_1);
+			__m512 acc2 = _mm512_loadu_ps(sum + 32 + pass);
 			acc2 = _mm512_add_ps(acc2, h0_1);
+			_mm512_storeu_ps(sum + 32 + pass, acc2);
 			const __m512 w2_0 = _mm512_mul_ps(w1_0, x1);
 			const __m512 h2_0 = _mm512_fmadd_ps(h1_0, x0, w2_0);
+			__m512 acc3 = _mm512_loadu_ps(sum + 48 + pass);
 			acc3 = _mm512_add_ps(acc3, h2_0);
+			_mm512_storeu_ps(sum + 48 + pass, acc3);
 			const __m512 w1_1 = _mm512_mul_ps(w0_1, x1);
 			const __m512 t2 = _mm512_mul_ps(_mm512_set1_ps(2.0f), w1_1);
 			const __m512 t3 = _mm512_fmadd_ps(h1_0, y0, t2);
 			const __m512 h1_1 = _mm512_fmadd_ps(h0_1, x0, t3);
+			__m512 acc4 = _mm512_loadu_ps(sum + 64 + pass);
 			acc4 = _mm512_add_ps(acc4, h1_1);
+			_mm512_storeu_ps(sum + 64 + pass, acc4);
 			const __m512 w0_2 = _mm512_mul_ps(w0_1, y1);
 			const __m512 h0_2 = _mm512_fmadd_ps(h0_1, y0, w0_2);
+			__m512 acc5 = _mm512_loadu_ps(sum + 80 + pass);
 			acc5 = _mm512_add_ps(acc5, h0_2);
+			_mm512_storeu_ps(sum + 80 + pass, acc5);
 			const __m512 w3_0 = _mm512_mul_ps(w2_0, x1);
 			const __m512 h3_0 = _mm512_fmadd_ps(h2_0, x0, w3_0);
+			__m512 acc6 = _mm512_loadu_ps(sum + 96 + pass);
 			acc6 = _mm512_add_ps(acc6, h3_0);
+			_mm512_storeu_ps(sum + 96 + pass, acc6);
 			const __m512 w2_1 = _mm512_mul_ps(w1_1, x1);
 			const __m512 t4 = _mm512_mul_ps(_mm512_set1_ps(3.0f), w2_1);
 			const __m512 t5 = _mm512_fmadd_ps(h2_0, y0, t4);
 			const __m512 h2_1 = _mm512_fmadd_ps(h1_1, x0, t5);
+			__m512 acc7 = _mm512_loadu_ps(sum + 112 + pass);
 			acc7 = _mm512_add_ps(acc7, h2_1);
+			_mm512_storeu_ps(sum + 112 + pass, acc7);
 			const __m512 w1_2 = _mm512_mul_ps(w0_2, x1);
 			const __m512 t6 = _mm512_mul_ps(_mm512_set1_ps(3.0f), w1_2);
 			const __m512 t7 = _mm512_fmadd_ps(h1_1, y0, t6);
 			const __m512 h1_2 = _mm512_fmadd_ps(h0_2, x0, t7);
+			__m512 acc8 = _mm512_loadu_ps(sum + 128 + pass);
 			acc8 = _mm512_add_ps(acc8, h1_2);
+			_mm512_storeu_ps(sum + 128 + pass, acc8);
 			const __m512 w0_3 = _mm512_mul_ps(w0_2, y1);
 			const __m512 h0_3 = _mm512_fmadd_ps(h0_2, y0, w0_3);
+			__m512 acc9 = _mm512_loadu_ps(sum + 144 + pass);
 			acc9 = _mm512_add_ps(acc9, h0_3);
+			_mm512_storeu_ps(sum + 144 + pass, acc9);
 			const __m512 w4_0 = _mm512_mul_ps(w3_0, x1);
 			const __m512 h4_0 = _mm512_fmadd_ps(h3_0, x0, w4_0);
+			__m512 acc10 = _mm512_loadu_ps(sum + 160 + pass);
 			acc10 = _mm512_add_ps(acc10, h4_0);
+			_mm512_storeu_ps(sum + 160 + pass, acc10);
 			const __m512 w3_1 = _mm512_mul_ps(w2_1, x1);
 			const __m512 t8 = _mm512_mul_ps(_mm512_set1_ps(4.0f), w3_1);
 			const __m512 t9 = _mm512_fmadd_ps(h3_0, y0, t8);
 			const __m512 h3_1 = _mm512_fmadd_ps(h2_1, x0, t9);
+			__m512 acc11 = _mm512_loadu_ps(sum + 176 + pass);
 			acc11 = _mm512_add_ps(acc11, h3_1);
+			_mm512_storeu_ps(sum + 176 + pass, acc11);
 			const __m512 w2_2 = _mm512_mul_ps(w1_2, x1);
 			const __m512 t10 = _mm512_mul_ps(_mm512_set1_ps(6.0f), w2_2);
 			const __m512 t11 = _mm512_fmadd_ps(h2_1, y0, t10);
 			const __m512 h2_2 = _mm512_fmadd_ps(h1_2, x0, t11);
+			__m512 acc12 = _mm512_loadu_ps(sum + 192 + pass);
 			acc12 = _mm512_add_ps(acc12, h2_2);
+			_mm512_storeu_ps(sum + 192 + pass, acc12);
 			const __m512 w1_3 = _mm512_mul_ps(w0_3, x1);
 			const __m512 t12 = _mm512_mul_ps(_mm512_set1_ps(4.0f), w1_3);
 			const __m512 t13 = _mm512_fmadd_ps(h1_2, y0, t12);
 			const __m512 h1_3 = _mm512_fmadd_ps(h0_3, x0, t13);
+			__m512 acc13 = _mm512_loadu_ps(sum + 208 + pass);
 			acc13 = _mm512_add_ps(acc13, h1_3);
+			_mm512_storeu_ps(sum + 208 + pass, acc13);
 			const __m512 w0_4 = _mm512_mul_ps(w0_3, y1);
 			const __m512 h0_4 = _mm512_fmadd_ps(h0_3, y0, w0_4);
+			__m512 acc14 = _mm512_loadu_ps(sum + 224 + pass);
 			acc14 = _mm512_add_ps(acc14, h0_4);
+			_mm512_storeu_ps(sum + 224 + pass, acc14);
+			__m512 acc15 = _mm512_loadu_ps(sum + 240 + pass);
 			const __m512 t14 = _mm512_fmadd_ps(w4_0, x1, acc15);
 			acc15 = _mm512_fmadd_ps(h4_0, x0, t14);
+			_mm512_storeu_ps(sum + 240 + pass, acc15);
+			__m512 acc16 = _mm512_loadu_ps(sum + 256 + pass);
 			const __m512 t15 = _mm512_fmadd_ps(h4_0, y0, acc16);
 			acc16 = _mm512_fmadd_ps(h3_1, x0, t15);
+			_mm512_storeu_ps(sum + 256 + pass, acc16);
+			__m512 acc17 = _mm512_loadu_ps(sum + 272 + pass);
 			const __m512 t16 = _mm512_fmadd_ps(h3_1, y0, acc17);
 			acc17 = _mm512_fmadd_ps(h2_2, x0, t16);
+			_mm512_storeu_ps(sum + 272 + pass, acc17);
+			__m512 acc18 = _mm512_loadu_ps(sum + 288 + pass);
 			const __m512 t17 = _mm512_fmadd_ps(h2_2, y0, acc18);
 			acc18 = _mm512_fmadd_ps(h1_3, x0, t17);
+			_mm512_storeu_ps(sum + 288 + pass, acc18);
+			__m512 acc19 = _mm512_loadu_ps(sum + 304 + pass);
 			const __m512 t18 = _mm512_fmadd_ps(h1_3, y0, acc19);
 			acc19 = _mm512_fmadd_ps(h0_4, x0, t18);
+			_mm512_storeu_ps(sum + 304 + pass, acc19);
+			__m512 acc20 = _mm512_loadu_ps(sum + 320 + pass);
 			const __m512 t19 = _mm512_fmadd_ps(w0_4, y1, acc20);
 			acc20 = _mm512_fmadd_ps(h0_4, y0, t19);
+			_mm512_storeu_ps(sum + 320 + pass, acc20);
+			__m512 acc21 = _mm512_loadu_ps(sum + 336 + pass);
 			acc21 = _mm512_fmadd_ps(w3_1, x1, acc21);
+			_mm512_storeu_ps(sum + 336 + pass, acc21);
+			__m512 acc22 = _mm512_loadu_ps(sum + 352 + pass);
 			acc22 = _mm512_fmadd_ps(w2_2, x1, acc22);
+			_mm512_storeu_ps(sum + 352 + pass, acc22);
+			__m512 acc23 = _mm512_loadu_ps(sum + 368 + pass);
 			acc23 = _mm512_fmadd_ps(w1_3, x1, acc23);
+			_mm512_storeu_ps(sum + 368 + pass, acc23);
+			__m512 acc24 = _mm512_loadu_ps(sum + 384 + pass);
 			acc24 = _mm512_fmadd_ps(w0_4, x1, acc24);
+			_mm512_storeu_ps(sum + 384 + pass, acc24);
 		}
-		_mm512_storeu_ps(sum + pass, acc0);
-		_mm512_storeu_ps(sum + 16 + pass, acc1);
-		_mm512_storeu_ps(sum + 32 + pass, acc2);
-		_mm512_storeu_ps(sum + 48 + pass, acc3);
-		_mm512_storeu_ps(sum + 64 + pass, acc4);
-		_mm512_storeu_ps(sum + 80 + pass, acc5);
-		_mm512_storeu_ps(sum + 96 + pass, acc6);
-		_mm512_storeu_ps(sum + 112 + pass, acc7);
-		_mm512_storeu_ps(sum + 128 + pass, acc8);
-		_mm512_storeu_ps(sum + 144 + pass, acc9);
-		_mm512_storeu_ps(sum + 160 + pass, acc10);
-		_mm512_storeu_ps(sum + 176 + pass, acc11);
-		_mm512_storeu_ps(sum + 192 + pass, acc12);
-		_mm512_storeu_ps(sum + 208 + pass, acc13);
-		_mm512_storeu_ps(sum + 224 + pass, acc14);
-		_mm512_storeu_ps(sum + 240 + pass, acc15);
-		_mm512_storeu_ps(sum + 256 + pass, acc16);
-		_mm512_storeu_ps(sum + 272 + pass, acc17);
-		_mm512_storeu_ps(sum + 288 + pass, acc18);
-		_mm512_storeu_ps(sum + 304 + pass, acc19);
-		_mm512_storeu_ps(sum + 320 + pass, acc20);
-		_mm512_storeu_ps(sum + 336 + pass, acc21);
-		_mm512_storeu_ps(sum + 352 + pass, acc22);
-		_mm512_storeu_ps(sum + 368 + pass, acc23);
-		_mm512_storeu_ps(sum + 384 + pass, acc24);
 	}
 }
 
 /* all moments of x^m y^n, m + n <= 6; scheme recurrence.
  * Cost per item: 81 mul or fma, 22 add; 33 accumulators, 18 values alive, depth 15. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_6f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
-		for (size_t i = pass; i < count; i += 32) {
-			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
-			const size_t rest_2 = count - i > 16 ? count - i - 16 : 0;
-			float pad_2[4][16];
-			const float *at_x0_2 = rest_2 < 16
-				? ew_ring_padf(pad_2[0], x + i + 16, rest_2, 16) : x + i + 16;
-			const __m512 x0_2 = _mm512_loadu_ps(at_x0_2);
-			const float *at_y0_2 = rest_2 < 16
-				? ew_ring_padf(pad_2[1], y + i + 16, rest_2, 16) : y + i + 16;
-			const __m512 y0_2 = _mm512_loadu_ps(at_y0_2);
-			const float *at_x1_2 = rest_2 < 16
-				? ew_ring_padf(pad_2[2], x + i + 17, rest_2, 16) : x + i + 17;
-			const __m512 x1_2 = _mm512_loadu_ps(at_x1_2);
-			const float *at_y1_2 = rest_2 < 16
-				? ew_ring_padf(pad_2[3], y + i + 17, rest_2, 16) : y + i + 17;
-			const __m512 y1_2 = _mm512_loadu_ps(at_y1_2);
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
+		size_t i = pass;
+		for (; i + step + 15 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 x0_2 = _mm512_loadu_ps(x + i + step);
+			const __m512 y0_2 = _mm512_loadu_ps(y + i + step);
+			const __m512 x1_2 = _mm512_loadu_ps(x + i + step + reach);
+			const __m512 y1_2 = _mm512_loadu_ps(y + i + step + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t0_2 = _mm512_mul_ps(x0_2, y1_2);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
@@ -883,45 +1179,206 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_6f_avx512(
 			acc32 = _mm512_fmadd_ps(w0_5_2, x1_2, acc32);
 			_mm512_storeu_ps(sum + 512 + pass, acc32);
 		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
+			const size_t rest = count - i;
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			__m512 acc0 = _mm512_loadu_ps(sum + pass);
+			acc0 = _mm512_add_ps(acc0, s);
+			_mm512_storeu_ps(sum + pass, acc0);
+			const __m512 w1_0 = _mm512_mul_ps(s, x1);
+			const __m512 h1_0 = _mm512_fmadd_ps(s, x0, w1_0);
+			__m512 acc1 = _mm512_loadu_ps(sum + 16 + pass);
+			acc1 = _mm512_add_ps(acc1, h1_0);
+			_mm512_storeu_ps(sum + 16 + pass, acc1);
+			const __m512 w0_1 = _mm512_mul_ps(s, y1);
+			const __m512 h0_1 = _mm512_fmadd_ps(s, y0, w0_1);
+			__m512 acc2 = _mm512_loadu_ps(sum + 32 + pass);
+			acc2 = _mm512_add_ps(acc2, h0_1);
+			_mm512_storeu_ps(sum + 32 + pass, acc2);
+			const __m512 w2_0 = _mm512_mul_ps(w1_0, x1);
+			const __m512 h2_0 = _mm512_fmadd_ps(h1_0, x0, w2_0);
+			__m512 acc3 = _mm512_loadu_ps(sum + 48 + pass);
+			acc3 = _mm512_add_ps(acc3, h2_0);
+			_mm512_storeu_ps(sum + 48 + pass, acc3);
+			const __m512 w1_1 = _mm512_mul_ps(w0_1, x1);
+			const __m512 t2 = _mm512_mul_ps(_mm512_set1_ps(2.0f), w1_1);
+			const __m512 t3 = _mm512_fmadd_ps(h1_0, y0, t2);
+			const __m512 h1_1 = _mm512_fmadd_ps(h0_1, x0, t3);
+			__m512 acc4 = _mm512_loadu_ps(sum + 64 + pass);
+			acc4 = _mm512_add_ps(acc4, h1_1);
+			_mm512_storeu_ps(sum + 64 + pass, acc4);
+			const __m512 w0_2 = _mm512_mul_ps(w0_1, y1);
+			const __m512 h0_2 = _mm512_fmadd_ps(h0_1, y0, w0_2);
+			__m512 acc5 = _mm512_loadu_ps(sum + 80 + pass);
+			acc5 = _mm512_add_ps(acc5, h0_2);
+			_mm512_storeu_ps(sum + 80 + pass, acc5);
+			const __m512 w3_0 = _mm512_mul_ps(w2_0, x1);
+			const __m512 h3_0 = _mm512_fmadd_ps(h2_0, x0, w3_0);
+			__m512 acc6 = _mm512_loadu_ps(sum + 96 + pass);
+			acc6 = _mm512_add_ps(acc6, h3_0);
+			_mm512_storeu_ps(sum + 96 + pass, acc6);
+			const __m512 w2_1 = _mm512_mul_ps(w1_1, x1);
+			const __m512 t4 = _mm512_mul_ps(_mm512_set1_ps(3.0f), w2_1);
+			const __m512 t5 = _mm512_fmadd_ps(h2_0, y0, t4);
+			const __m512 h2_1 = _mm512_fmadd_ps(h1_1, x0, t5);
+			__m512 acc7 = _mm512_loadu_ps(sum + 112 + pass);
+			acc7 = _mm512_add_ps(acc7, h2_1);
+			_mm512_storeu_ps(sum + 112 + pass, acc7);
+			const __m512 w1_2 = _mm512_mul_ps(w0_2, x1);
+			const __m512 t6 = _mm512_mul_ps(_mm512_set1_ps(3.0f), w1_2);
+			const __m512 t7 = _mm512_fmadd_ps(h1_1, y0, t6);
+			const __m512 h1_2 = _mm512_fmadd_ps(h0_2, x0, t7);
+			__m512 acc8 = _mm512_loadu_ps(sum + 128 + pass);
+			acc8 = _mm512_add_ps(acc8, h1_2);
+			_mm512_storeu_ps(sum + 128 + pass, acc8);
+			const __m512 w0_3 = _mm512_mul_ps(w0_2, y1);
+			const __m512 h0_3 = _mm512_fmadd_ps(h0_2, y0, w0_3);
+			__m512 acc9 = _mm512_loadu_ps(sum + 144 + pass);
+			acc9 = _mm512_add_ps(acc9, h0_3);
+			_mm512_storeu_ps(sum + 144 + pass, acc9);
+			const __m512 w4_0 = _mm512_mul_ps(w3_0, x1);
+			const __m512 h4_0 = _mm512_fmadd_ps(h3_0, x0, w4_0);
+			__m512 acc10 = _mm512_loadu_ps(sum + 160 + pass);
+			acc10 = _mm512_add_ps(acc10, h4_0);
+			_mm512_storeu_ps(sum + 160 + pass, acc10);
+			const __m512 w3_1 = _mm512_mul_ps(w2_1, x1);
+			const __m512 t8 = _mm512_mul_ps(_mm512_set1_ps(4.0f), w3_1);
+			const __m512 t9 = _mm512_fmadd_ps(h3_0, y0, t8);
+			const __m512 h3_1 = _mm512_fmadd_ps(h2_1, x0, t9);
+			__m512 acc11 = _mm512_loadu_ps(sum + 176 + pass);
+			acc11 = _mm512_add_ps(acc11, h3_1);
+			_mm512_storeu_ps(sum + 176 + pass, acc11);
+			const __m512 w2_2 = _mm512_mul_ps(w1_2, x1);
+			const __m512 t10 = _mm512_mul_ps(_mm512_set1_ps(6.0f), w2_2);
+			const __m512 t11 = _mm512_fmadd_ps(h2_1, y0, t10);
+			const __m512 h2_2 = _mm512_fmadd_ps(h1_2, x0, t11);
+			__m512 acc12 = _mm512_loadu_ps(sum + 192 + pass);
+			acc12 = _mm512_add_ps(acc12, h2_2);
+			_mm512_storeu_ps(sum + 192 + pass, acc12);
+			const __m512 w1_3 = _mm512_mul_ps(w0_3, x1);
+			const __m512 t12 = _mm512_mul_ps(_mm512_set1_ps(4.0f), w1_3);
+			const __m512 t13 = _mm512_fmadd_ps(h1_2, y0, t12);
+			const __m512 h1_3 = _mm512_fmadd_ps(h0_3, x0, t13);
+			__m512 acc13 = _mm512_loadu_ps(sum + 208 + pass);
+			acc13 = _mm512_add_ps(acc13, h1_3);
+			_mm512_storeu_ps(sum + 208 + pass, acc13);
+			const __m512 w0_4 = _mm512_mul_ps(w0_3, y1);
+			const __m512 h0_4 = _mm512_fmadd_ps(h0_3, y0, w0_4);
+			__m512 acc14 = _mm512_loadu_ps(sum + 224 + pass);
+			acc14 = _mm512_add_ps(acc14, h0_4);
+			_mm512_storeu_ps(sum + 224 + pass, acc14);
+			const __m512 w5_0 = _mm512_mul_ps(w4_0, x1);
+			const __m512 h5_0 = _mm512_fmadd_ps(h4_0, x0, w5_0);
+			__m512 acc15 = _mm512_loadu_ps(sum + 240 + pass);
+			acc15 = _mm512_add_ps(acc15, h5_0);
+			_mm512_storeu_ps(sum + 240 + pass, acc15);
+			const __m512 w4_1 = _mm512_mul_ps(w3_1, x1);
+			const __m512 t14 = _mm512_mul_ps(_mm512_set1_ps(5.0f), w4_1);
+			const __m512 t15 = _mm512_fmadd_ps(h4_0, y0, t14);
+			const __m512 h4_1 = _mm512_fmadd_ps(h3_1, x0, t15);
+			__m512 acc16 = _mm512_loadu_ps(sum + 256 + pass);
+			acc16 = _mm512_add_ps(acc16, h4_1);
+			_mm512_storeu_ps(sum + 256 + pass, acc16);
+			const __m512 w3_2 = _mm512_mul_ps(w2_2, x1);
+			const __m512 t16 = _mm512_mul_ps(_mm512_set1_ps(10.0f), w3_2);
+			const __m512 t17 = _mm512_fmadd_ps(h3_1, y0, t16);
+			const __m512 h3_2 = _mm512_fmadd_ps(h2_2, x0, t17);
+			__m512 acc17 = _mm512_loadu_ps(sum + 272 + pass);
+			acc17 = _mm512_add_ps(acc17, h3_2);
+			_mm512_storeu_ps(sum + 272 + pass, acc17);
+			const __m512 w2_3 = _mm512_mul_ps(w1_3, x1);
+			const __m512 t18 = _mm512_mul_ps(_mm512_set1_ps(10.0f), w2_3);
+			const __m512 t19 = _mm512_fmadd_ps(h2_2, y0, t18);
+			const __m512 h2_3 = _mm512_fmadd_ps(h1_3, x0, t19);
+			__m512 acc18 = _mm512_loadu_ps(sum + 288 + pass);
+			acc18 = _mm512_add_ps(acc18, h2_3);
+			_mm512_storeu_ps(sum + 288 + pass, acc18);
+			const __m512 w1_4 = _mm512_mul_ps(w0_4, x1);
+			const __m512 t20 = _mm512_mul_ps(_mm512_set1_ps(5.0f), w1_4);
+			const __m512 t21 = _mm512_fmadd_ps(h1_3, y0, t20);
+			const __m512 h1_4 = _mm512_fmadd_ps(h0_4, x0, t21);
+			__m512 acc19 = _mm512_loadu_ps(sum + 304 + pass);
+			acc19 = _mm512_add_ps(acc19, h1_4);
+			_mm512_storeu_ps(sum + 304 + pass, acc19);
+			const __m512 w0_5 = _mm512_mul_ps(w0_4, y1);
+			const __m512 h0_5 = _mm512_fmadd_ps(h0_4, y0, w0_5);
+			__m512 acc20 = _mm512_loadu_ps(sum + 320 + pass);
+			acc20 = _mm512_add_ps(acc20, h0_5);
+			_mm512_storeu_ps(sum + 320 + pass, acc20);
+			__m512 acc21 = _mm512_loadu_ps(sum + 336 + pass);
+			const __m512 t22 = _mm512_fmadd_ps(w5_0, x1, acc21);
+			acc21 = _mm512_fmadd_ps(h5_0, x0, t22);
+			_mm512_storeu_ps(sum + 336 + pass, acc21);
+			__m512 acc22 = _mm512_loadu_ps(sum + 352 + pass);
+			const __m512 t23 = _mm512_fmadd_ps(h5_0, y0, acc22);
+			acc22 = _mm512_fmadd_ps(h4_1, x0, t23);
+			_mm512_storeu_ps(sum + 352 + pass, acc22);
+			__m512 acc23 = _mm512_loadu_ps(sum + 368 + pass);
+			const __m512 t24 = _mm512_fmadd_ps(h4_1, y0, acc23);
+			acc23 = _mm512_fmadd_ps(h3_2, x0, t24);
+			_mm512_storeu_ps(sum + 368 + pass, acc23);
+			__m512 acc24 = _mm512_loadu_ps(sum + 384 + pass);
+			const __m512 t25 = _mm512_fmadd_ps(h3_2, y0, acc24);
+			acc24 = _mm512_fmadd_ps(h2_3, x0, t25);
+			_mm512_storeu_ps(sum + 384 + pass, acc24);
+			__m512 acc25 = _mm512_loadu_ps(sum + 400 + pass);
+			const __m512 t26 = _mm512_fmadd_ps(h2_3, y0, acc25);
+			acc25 = _mm512_fmadd_ps(h1_4, x0, t26);
+			_mm512_storeu_ps(sum + 400 + pass, acc25);
+			__m512 acc26 = _mm512_loadu_ps(sum + 416 + pass);
+			const __m512 t27 = _mm512_fmadd_ps(h1_4, y0, acc26);
+			acc26 = _mm512_fmadd_ps(h0_5, x0, t27);
+			_mm512_storeu_ps(sum + 416 + pass, acc26);
+			__m512 acc27 = _mm512_loadu_ps(sum + 432 + pass);
+			const __m512 t28 = _mm512_fmadd_ps(w0_5, y1, acc27);
+			acc27 = _mm512_fmadd_ps(h0_5, y0, t28);
+			_mm512_storeu_ps(sum + 432 + pass, acc27);
+			__m512 acc28 = _mm512_loadu_ps(sum + 448 + pass);
+			acc28 = _mm512_fmadd_ps(w4_1, x1, acc28);
+			_mm512_storeu_ps(sum + 448 + pass, acc28);
+			__m512 acc29 = _mm512_loadu_ps(sum + 464 + pass);
+			acc29 = _mm512_fmadd_ps(w3_2, x1, acc29);
+			_mm512_storeu_ps(sum + 464 + pass, acc29);
+			__m512 acc30 = _mm512_loadu_ps(sum + 480 + pass);
+			acc30 = _mm512_fmadd_ps(w2_3, x1, acc30);
+			_mm512_storeu_ps(sum + 480 + pass, acc30);
+			__m512 acc31 = _mm512_loadu_ps(sum + 496 + pass);
+			acc31 = _mm512_fmadd_ps(w1_4, x1, acc31);
+			_mm512_storeu_ps(sum + 496 + pass, acc31);
+			__m512 acc32 = _mm512_loadu_ps(sum + 512 + pass);
+			acc32 = _mm512_fmadd_ps(w0_5, x1, acc32);
+			_mm512_storeu_ps(sum + 512 + pass, acc32);
+		}
 	}
 }
 
 /* all moments of x^m y^n, m + n <= 7; scheme recurrence.
  * Cost per item: 108 mul or fma, 29 add; 42 accumulators, 20 values alive, depth 17. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_7f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
-		for (size_t i = pass; i < count; i += 32) {
-			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
-			const size_t rest_2 = count - i > 16 ? count - i - 16 : 0;
-			float pad_2[4][16];
-			const float *at_x0_2 = rest_2 < 16
-				? ew_ring_padf(pad_2[0], x + i + 16, rest_2, 16) : x + i + 16;
-			const __m512 x0_2 = _mm512_loadu_ps(at_x0_2);
-			const float *at_y0_2 = rest_2 < 16
-				? ew_ring_padf(pad_2[1], y + i + 16, rest_2, 16) : y + i + 16;
-			const __m512 y0_2 = _mm512_loadu_ps(at_y0_2);
-			const float *at_x1_2 = rest_2 < 16
-				? ew_ring_padf(pad_2[2], x + i + 17, rest_2, 16) : x + i + 17;
-			const __m512 x1_2 = _mm512_loadu_ps(at_x1_2);
-			const float *at_y1_2 = rest_2 < 16
-				? ew_ring_padf(pad_2[3], y + i + 17, rest_2, 16) : y + i + 17;
-			const __m512 y1_2 = _mm512_loadu_ps(at_y1_2);
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
+		size_t i = pass;
+		for (; i + step + 15 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 x0_2 = _mm512_loadu_ps(x + i + step);
+			const __m512 y0_2 = _mm512_loadu_ps(y + i + step);
+			const __m512 x1_2 = _mm512_loadu_ps(x + i + step + reach);
+			const __m512 y1_2 = _mm512_loadu_ps(y + i + step + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t0_2 = _mm512_mul_ps(x0_2, y1_2);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
@@ -1281,45 +1738,258 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_7f_avx512(
 			acc41 = _mm512_fmadd_ps(w0_6_2, x1_2, acc41);
 			_mm512_storeu_ps(sum + 656 + pass, acc41);
 		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
+			const size_t rest = count - i;
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			__m512 acc0 = _mm512_loadu_ps(sum + pass);
+			acc0 = _mm512_add_ps(acc0, s);
+			_mm512_storeu_ps(sum + pass, acc0);
+			const __m512 w1_0 = _mm512_mul_ps(s, x1);
+			const __m512 h1_0 = _mm512_fmadd_ps(s, x0, w1_0);
+			__m512 acc1 = _mm512_loadu_ps(sum + 16 + pass);
+			acc1 = _mm512_add_ps(acc1, h1_0);
+			_mm512_storeu_ps(sum + 16 + pass, acc1);
+			const __m512 w0_1 = _mm512_mul_ps(s, y1);
+			const __m512 h0_1 = _mm512_fmadd_ps(s, y0, w0_1);
+			__m512 acc2 = _mm512_loadu_ps(sum + 32 + pass);
+			acc2 = _mm512_add_ps(acc2, h0_1);
+			_mm512_storeu_ps(sum + 32 + pass, acc2);
+			const __m512 w2_0 = _mm512_mul_ps(w1_0, x1);
+			const __m512 h2_0 = _mm512_fmadd_ps(h1_0, x0, w2_0);
+			__m512 acc3 = _mm512_loadu_ps(sum + 48 + pass);
+			acc3 = _mm512_add_ps(acc3, h2_0);
+			_mm512_storeu_ps(sum + 48 + pass, acc3);
+			const __m512 w1_1 = _mm512_mul_ps(w0_1, x1);
+			const __m512 t2 = _mm512_mul_ps(_mm512_set1_ps(2.0f), w1_1);
+			const __m512 t3 = _mm512_fmadd_ps(h1_0, y0, t2);
+			const __m512 h1_1 = _mm512_fmadd_ps(h0_1, x0, t3);
+			__m512 acc4 = _mm512_loadu_ps(sum + 64 + pass);
+			acc4 = _mm512_add_ps(acc4, h1_1);
+			_mm512_storeu_ps(sum + 64 + pass, acc4);
+			const __m512 w0_2 = _mm512_mul_ps(w0_1, y1);
+			const __m512 h0_2 = _mm512_fmadd_ps(h0_1, y0, w0_2);
+			__m512 acc5 = _mm512_loadu_ps(sum + 80 + pass);
+			acc5 = _mm512_add_ps(acc5, h0_2);
+			_mm512_storeu_ps(sum + 80 + pass, acc5);
+			const __m512 w3_0 = _mm512_mul_ps(w2_0, x1);
+			const __m512 h3_0 = _mm512_fmadd_ps(h2_0, x0, w3_0);
+			__m512 acc6 = _mm512_loadu_ps(sum + 96 + pass);
+			acc6 = _mm512_add_ps(acc6, h3_0);
+			_mm512_storeu_ps(sum + 96 + pass, acc6);
+			const __m512 w2_1 = _mm512_mul_ps(w1_1, x1);
+			const __m512 t4 = _mm512_mul_ps(_mm512_set1_ps(3.0f), w2_1);
+			const __m512 t5 = _mm512_fmadd_ps(h2_0, y0, t4);
+			const __m512 h2_1 = _mm512_fmadd_ps(h1_1, x0, t5);
+			__m512 acc7 = _mm512_loadu_ps(sum + 112 + pass);
+			acc7 = _mm512_add_ps(acc7, h2_1);
+			_mm512_storeu_ps(sum + 112 + pass, acc7);
+			const __m512 w1_2 = _mm512_mul_ps(w0_2, x1);
+			const __m512 t6 = _mm512_mul_ps(_mm512_set1_ps(3.0f), w1_2);
+			const __m512 t7 = _mm512_fmadd_ps(h1_1, y0, t6);
+			const __m512 h1_2 = _mm512_fmadd_ps(h0_2, x0, t7);
+			__m512 acc8 = _mm512_loadu_ps(sum + 128 + pass);
+			acc8 = _mm512_add_ps(acc8, h1_2);
+			_mm512_storeu_ps(sum + 128 + pass, acc8);
+			const __m512 w0_3 = _mm512_mul_ps(w0_2, y1);
+			const __m512 h0_3 = _mm512_fmadd_ps(h0_2, y0, w0_3);
+			__m512 acc9 = _mm512_loadu_ps(sum + 144 + pass);
+			acc9 = _mm512_add_ps(acc9, h0_3);
+			_mm512_storeu_ps(sum + 144 + pass, acc9);
+			const __m512 w4_0 = _mm512_mul_ps(w3_0, x1);
+			const __m512 h4_0 = _mm512_fmadd_ps(h3_0, x0, w4_0);
+			__m512 acc10 = _mm512_loadu_ps(sum + 160 + pass);
+			acc10 = _mm512_add_ps(acc10, h4_0);
+			_mm512_storeu_ps(sum + 160 + pass, acc10);
+			const __m512 w3_1 = _mm512_mul_ps(w2_1, x1);
+			const __m512 t8 = _mm512_mul_ps(_mm512_set1_ps(4.0f), w3_1);
+			const __m512 t9 = _mm512_fmadd_ps(h3_0, y0, t8);
+			const __m512 h3_1 = _mm512_fmadd_ps(h2_1, x0, t9);
+			__m512 acc11 = _mm512_loadu_ps(sum + 176 + pass);
+			acc11 = _mm512_add_ps(acc11, h3_1);
+			_mm512_storeu_ps(sum + 176 + pass, acc11);
+			const __m512 w2_2 = _mm512_mul_ps(w1_2, x1);
+			const __m512 t10 = _mm512_mul_ps(_mm512_set1_ps(6.0f), w2_2);
+			const __m512 t11 = _mm512_fmadd_ps(h2_1, y0, t10);
+			const __m512 h2_2 = _mm512_fmadd_ps(h1_2, x0, t11);
+			__m512 acc12 = _mm512_loadu_ps(sum + 192 + pass);
+			acc12 = _mm512_add_ps(acc12, h2_2);
+			_mm512_storeu_ps(sum + 192 + pass, acc12);
+			const __m512 w1_3 = _mm512_mul_ps(w0_3, x1);
+			const __m512 t12 = _mm512_mul_ps(_mm512_set1_ps(4.0f), w1_3);
+			const __m512 t13 = _mm512_fmadd_ps(h1_2, y0, t12);
+			const __m512 h1_3 = _mm512_fmadd_ps(h0_3, x0, t13);
+			__m512 acc13 = _mm512_loadu_ps(sum + 208 + pass);
+			acc13 = _mm512_add_ps(acc13, h1_3);
+			_mm512_storeu_ps(sum + 208 + pass, acc13);
+			const __m512 w0_4 = _mm512_mul_ps(w0_3, y1);
+			const __m512 h0_4 = _mm512_fmadd_ps(h0_3, y0, w0_4);
+			__m512 acc14 = _mm512_loadu_ps(sum + 224 + pass);
+			acc14 = _mm512_add_ps(acc14, h0_4);
+			_mm512_storeu_ps(sum + 224 + pass, acc14);
+			const __m512 w5_0 = _mm512_mul_ps(w4_0, x1);
+			const __m512 h5_0 = _mm512_fmadd_ps(h4_0, x0, w5_0);
+			__m512 acc15 = _mm512_loadu_ps(sum + 240 + pass);
+			acc15 = _mm512_add_ps(acc15, h5_0);
+			_mm512_storeu_ps(sum + 240 + pass, acc15);
+			const __m512 w4_1 = _mm512_mul_ps(w3_1, x1);
+			const __m512 t14 = _mm512_mul_ps(_mm512_set1_ps(5.0f), w4_1);
+			const __m512 t15 = _mm512_fmadd_ps(h4_0, y0, t14);
+			const __m512 h4_1 = _mm512_fmadd_ps(h3_1, x0, t15);
+			__m512 acc16 = _mm512_loadu_ps(sum + 256 + pass);
+			acc16 = _mm512_add_ps(acc16, h4_1);
+			_mm512_storeu_ps(sum + 256 + pass, acc16);
+			const __m512 w3_2 = _mm512_mul_ps(w2_2, x1);
+			const __m512 t16 = _mm512_mul_ps(_mm512_set1_ps(10.0f), w3_2);
+			const __m512 t17 = _mm512_fmadd_ps(h3_1, y0, t16);
+			const __m512 h3_2 = _mm512_fmadd_ps(h2_2, x0, t17);
+			__m512 acc17 = _mm512_loadu_ps(sum + 272 + pass);
+			acc17 = _mm512_add_ps(acc17, h3_2);
+			_mm512_storeu_ps(sum + 272 + pass, acc17);
+			const __m512 w2_3 = _mm512_mul_ps(w1_3, x1);
+			const __m512 t18 = _mm512_mul_ps(_mm512_set1_ps(10.0f), w2_3);
+			const __m512 t19 = _mm512_fmadd_ps(h2_2, y0, t18);
+			const __m512 h2_3 = _mm512_fmadd_ps(h1_3, x0, t19);
+			__m512 acc18 = _mm512_loadu_ps(sum + 288 + pass);
+			acc18 = _mm512_add_ps(acc18, h2_3);
+			_mm512_storeu_ps(sum + 288 + pass, acc18);
+			const __m512 w1_4 = _mm512_mul_ps(w0_4, x1);
+			const __m512 t20 = _mm512_mul_ps(_mm512_set1_ps(5.0f), w1_4);
+			const __m512 t21 = _mm512_fmadd_ps(h1_3, y0, t20);
+			const __m512 h1_4 = _mm512_fmadd_ps(h0_4, x0, t21);
+			__m512 acc19 = _mm512_loadu_ps(sum + 304 + pass);
+			acc19 = _mm512_add_ps(acc19, h1_4);
+			_mm512_storeu_ps(sum + 304 + pass, acc19);
+			const __m512 w0_5 = _mm512_mul_ps(w0_4, y1);
+			const __m512 h0_5 = _mm512_fmadd_ps(h0_4, y0, w0_5);
+			__m512 acc20 = _mm512_loadu_ps(sum + 320 + pass);
+			acc20 = _mm512_add_ps(acc20, h0_5);
+			_mm512_storeu_ps(sum + 320 + pass, acc20);
+			const __m512 w6_0 = _mm512_mul_ps(w5_0, x1);
+			const __m512 h6_0 = _mm512_fmadd_ps(h5_0, x0, w6_0);
+			__m512 acc21 = _mm512_loadu_ps(sum + 336 + pass);
+			acc21 = _mm512_add_ps(acc21, h6_0);
+			_mm512_storeu_ps(sum + 336 + pass, acc21);
+			const __m512 w5_1 = _mm512_mul_ps(w4_1, x1);
+			const __m512 t22 = _mm512_mul_ps(_mm512_set1_ps(6.0f), w5_1);
+			const __m512 t23 = _mm512_fmadd_ps(h5_0, y0, t22);
+			const __m512 h5_1 = _mm512_fmadd_ps(h4_1, x0, t23);
+			__m512 acc22 = _mm512_loadu_ps(sum + 352 + pass);
+			acc22 = _mm512_add_ps(acc22, h5_1);
+			_mm512_storeu_ps(sum + 352 + pass, acc22);
+			const __m512 w4_2 = _mm512_mul_ps(w3_2, x1);
+			const __m512 t24 = _mm512_mul_ps(_mm512_set1_ps(15.0f), w4_2);
+			const __m512 t25 = _mm512_fmadd_ps(h4_1, y0, t24);
+			const __m512 h4_2 = _mm512_fmadd_ps(h3_2, x0, t25);
+			__m512 acc23 = _mm512_loadu_ps(sum + 368 + pass);
+			acc23 = _mm512_add_ps(acc23, h4_2);
+			_mm512_storeu_ps(sum + 368 + pass, acc23);
+			const __m512 w3_3 = _mm512_mul_ps(w2_3, x1);
+			const __m512 t26 = _mm512_mul_ps(_mm512_set1_ps(20.0f), w3_3);
+			const __m512 t27 = _mm512_fmadd_ps(h3_2, y0, t26);
+			const __m512 h3_3 = _mm512_fmadd_ps(h2_3, x0, t27);
+			__m512 acc24 = _mm512_loadu_ps(sum + 384 + pass);
+			acc24 = _mm512_add_ps(acc24, h3_3);
+			_mm512_storeu_ps(sum + 384 + pass, acc24);
+			const __m512 w2_4 = _mm512_mul_ps(w1_4, x1);
+			const __m512 t28 = _mm512_mul_ps(_mm512_set1_ps(15.0f), w2_4);
+			const __m512 t29 = _mm512_fmadd_ps(h2_3, y0, t28);
+			const __m512 h2_4 = _mm512_fmadd_ps(h1_4, x0, t29);
+			__m512 acc25 = _mm512_loadu_ps(sum + 400 + pass);
+			acc25 = _mm512_add_ps(acc25, h2_4);
+			_mm512_storeu_ps(sum + 400 + pass, acc25);
+			const __m512 w1_5 = _mm512_mul_ps(w0_5, x1);
+			const __m512 t30 = _mm512_mul_ps(_mm512_set1_ps(6.0f), w1_5);
+			const __m512 t31 = _mm512_fmadd_ps(h1_4, y0, t30);
+			const __m512 h1_5 = _mm512_fmadd_ps(h0_5, x0, t31);
+			__m512 acc26 = _mm512_loadu_ps(sum + 416 + pass);
+			acc26 = _mm512_add_ps(acc26, h1_5);
+			_mm512_storeu_ps(sum + 416 + pass, acc26);
+			const __m512 w0_6 = _mm512_mul_ps(w0_5, y1);
+			const __m512 h0_6 = _mm512_fmadd_ps(h0_5, y0, w0_6);
+			__m512 acc27 = _mm512_loadu_ps(sum + 432 + pass);
+			acc27 = _mm512_add_ps(acc27, h0_6);
+			_mm512_storeu_ps(sum + 432 + pass, acc27);
+			__m512 acc28 = _mm512_loadu_ps(sum + 448 + pass);
+			const __m512 t32 = _mm512_fmadd_ps(w6_0, x1, acc28);
+			acc28 = _mm512_fmadd_ps(h6_0, x0, t32);
+			_mm512_storeu_ps(sum + 448 + pass, acc28);
+			__m512 acc29 = _mm512_loadu_ps(sum + 464 + pass);
+			const __m512 t33 = _mm512_fmadd_ps(h6_0, y0, acc29);
+			acc29 = _mm512_fmadd_ps(h5_1, x0, t33);
+			_mm512_storeu_ps(sum + 464 + pass, acc29);
+			__m512 acc30 = _mm512_loadu_ps(sum + 480 + pass);
+			const __m512 t34 = _mm512_fmadd_ps(h5_1, y0, acc30);
+			acc30 = _mm512_fmadd_ps(h4_2, x0, t34);
+			_mm512_storeu_ps(sum + 480 + pass, acc30);
+			__m512 acc31 = _mm512_loadu_ps(sum + 496 + pass);
+			const __m512 t35 = _mm512_fmadd_ps(h4_2, y0, acc31);
+			acc31 = _mm512_fmadd_ps(h3_3, x0, t35);
+			_mm512_storeu_ps(sum + 496 + pass, acc31);
+			__m512 acc32 = _mm512_loadu_ps(sum + 512 + pass);
+			const __m512 t36 = _mm512_fmadd_ps(h3_3, y0, acc32);
+			acc32 = _mm512_fmadd_ps(h2_4, x0, t36);
+			_mm512_storeu_ps(sum + 512 + pass, acc32);
+			__m512 acc33 = _mm512_loadu_ps(sum + 528 + pass);
+			const __m512 t37 = _mm512_fmadd_ps(h2_4, y0, acc33);
+			acc33 = _mm512_fmadd_ps(h1_5, x0, t37);
+			_mm512_storeu_ps(sum + 528 + pass, acc33);
+			__m512 acc34 = _mm512_loadu_ps(sum + 544 + pass);
+			const __m512 t38 = _mm512_fmadd_ps(h1_5, y0, acc34);
+			acc34 = _mm512_fmadd_ps(h0_6, x0, t38);
+			_mm512_storeu_ps(sum + 544 + pass, acc34);
+			__m512 acc35 = _mm512_loadu_ps(sum + 560 + pass);
+			const __m512 t39 = _mm512_fmadd_ps(w0_6, y1, acc35);
+			acc35 = _mm512_fmadd_ps(h0_6, y0, t39);
+			_mm512_storeu_ps(sum + 560 + pass, acc35);
+			__m512 acc36 = _mm512_loadu_ps(sum + 576 + pass);
+			acc36 = _mm512_fmadd_ps(w5_1, x1, acc36);
+			_mm512_storeu_ps(sum + 576 + pass, acc36);
+			__m512 acc37 = _mm512_loadu_ps(sum + 592 + pass);
+			acc37 = _mm512_fmadd_ps(w4_2, x1, acc37);
+			_mm512_storeu_ps(sum + 592 + pass, acc37);
+			__m512 acc38 = _mm512_loadu_ps(sum + 608 + pass);
+			acc38 = _mm512_fmadd_ps(w3_3, x1, acc38);
+			_mm512_storeu_ps(sum + 608 + pass, acc38);
+			__m512 acc39 = _mm512_loadu_ps(sum + 624 + pass);
+			acc39 = _mm512_fmadd_ps(w2_4, x1, acc39);
+			_mm512_storeu_ps(sum + 624 + pass, acc39);
+			__m512 acc40 = _mm512_loadu_ps(sum + 640 + pass);
+			acc40 = _mm512_fmadd_ps(w1_5, x1, acc40);
+			_mm512_storeu_ps(sum + 640 + pass, acc40);
+			__m512 acc41 = _mm512_loadu_ps(sum + 656 + pass);
+			acc41 = _mm512_fmadd_ps(w0_6, x1, acc41);
+			_mm512_storeu_ps(sum + 656 + pass, acc41);
+		}
 	}
 }
 
 /* all moments of x^m y^n, m + n <= 8; scheme recurrence.
  * Cost per item: 139 mul or fma, 37 add; 52 accumulators, 22 values alive, depth 19. */
 EW_ATTRIBUTE_AVX512 void ew_ring_moments_8f_avx512(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 16) {
-		for (size_t i = pass; i < count; i += 32) {
-			const size_t rest = count - i;
-			float pad[4][16];
-			const float *at_x0 = rest < 16
-				? ew_ring_padf(pad[0], x + i, rest, 16) : x + i;
-			const __m512 x0 = _mm512_loadu_ps(at_x0);
-			const float *at_y0 = rest < 16
-				? ew_ring_padf(pad[1], y + i, rest, 16) : y + i;
-			const __m512 y0 = _mm512_loadu_ps(at_y0);
-			const float *at_x1 = rest < 16
-				? ew_ring_padf(pad[2], x + i + 1, rest, 16) : x + i + 1;
-			const __m512 x1 = _mm512_loadu_ps(at_x1);
-			const float *at_y1 = rest < 16
-				? ew_ring_padf(pad[3], y + i + 1, rest, 16) : y + i + 1;
-			const __m512 y1 = _mm512_loadu_ps(at_y1);
-			const size_t rest_2 = count - i > 16 ? count - i - 16 : 0;
-			float pad_2[4][16];
-			const float *at_x0_2 = rest_2 < 16
-				? ew_ring_padf(pad_2[0], x + i + 16, rest_2, 16) : x + i + 16;
-			const __m512 x0_2 = _mm512_loadu_ps(at_x0_2);
-			const float *at_y0_2 = rest_2 < 16
-				? ew_ring_padf(pad_2[1], y + i + 16, rest_2, 16) : y + i + 16;
-			const __m512 y0_2 = _mm512_loadu_ps(at_y0_2);
-			const float *at_x1_2 = rest_2 < 16
-				? ew_ring_padf(pad_2[2], x + i + 17, rest_2, 16) : x + i + 17;
-			const __m512 x1_2 = _mm512_loadu_ps(at_x1_2);
-			const float *at_y1_2 = rest_2 < 16
-				? ew_ring_padf(pad_2[3], y + i + 17, rest_2, 16) : y + i + 17;
-			const __m512 y1_2 = _mm512_loadu_ps(at_y1_2);
+	for (size_t pass = 0; pass < step && pass < count; pass += 16) {
+		size_t i = pass;
+		for (; i + step + 15 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const __m512 x0 = _mm512_loadu_ps(x + i);
+			const __m512 y0 = _mm512_loadu_ps(y + i);
+			const __m512 x1 = _mm512_loadu_ps(x + i + reach);
+			const __m512 y1 = _mm512_loadu_ps(y + i + reach);
+			const __m512 x0_2 = _mm512_loadu_ps(x + i + step);
+			const __m512 y0_2 = _mm512_loadu_ps(y + i + step);
+			const __m512 x1_2 = _mm512_loadu_ps(x + i + step + reach);
+			const __m512 y1_2 = _mm512_loadu_ps(y + i + step + reach);
 			const __m512 t0 = _mm512_mul_ps(x0, y1);
 			const __m512 t0_2 = _mm512_mul_ps(x0_2, y1_2);
 			const __m512 t1 = _mm512_mul_ps(x1, y0);
@@ -1775,6 +2445,295 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_8f_avx512(
 			__m512 acc51 = _mm512_loadu_ps(sum + 816 + pass);
 			acc51 = _mm512_fmadd_ps(w0_7, x1, acc51);
 			acc51 = _mm512_fmadd_ps(w0_7_2, x1_2, acc51);
+			_mm512_storeu_ps(sum + 816 + pass, acc51);
+		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
+			const size_t rest = count - i;
+			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
+			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
+			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
+			const __m512 y1 = _mm512_maskz_loadu_ps(mask, y + i + reach);
+			const __m512 t0 = _mm512_mul_ps(x0, y1);
+			const __m512 t1 = _mm512_mul_ps(x1, y0);
+			const __m512 s = _mm512_sub_ps(t0, t1);
+			__m512 acc0 = _mm512_loadu_ps(sum + pass);
+			acc0 = _mm512_add_ps(acc0, s);
+			_mm512_storeu_ps(sum + pass, acc0);
+			const __m512 w1_0 = _mm512_mul_ps(s, x1);
+			const __m512 h1_0 = _mm512_fmadd_ps(s, x0, w1_0);
+			__m512 acc1 = _mm512_loadu_ps(sum + 16 + pass);
+			acc1 = _mm512_add_ps(acc1, h1_0);
+			_mm512_storeu_ps(sum + 16 + pass, acc1);
+			const __m512 w0_1 = _mm512_mul_ps(s, y1);
+			const __m512 h0_1 = _mm512_fmadd_ps(s, y0, w0_1);
+			__m512 acc2 = _mm512_loadu_ps(sum + 32 + pass);
+			acc2 = _mm512_add_ps(acc2, h0_1);
+			_mm512_storeu_ps(sum + 32 + pass, acc2);
+			const __m512 w2_0 = _mm512_mul_ps(w1_0, x1);
+			const __m512 h2_0 = _mm512_fmadd_ps(h1_0, x0, w2_0);
+			__m512 acc3 = _mm512_loadu_ps(sum + 48 + pass);
+			acc3 = _mm512_add_ps(acc3, h2_0);
+			_mm512_storeu_ps(sum + 48 + pass, acc3);
+			const __m512 w1_1 = _mm512_mul_ps(w0_1, x1);
+			const __m512 t2 = _mm512_mul_ps(_mm512_set1_ps(2.0f), w1_1);
+			const __m512 t3 = _mm512_fmadd_ps(h1_0, y0, t2);
+			const __m512 h1_1 = _mm512_fmadd_ps(h0_1, x0, t3);
+			__m512 acc4 = _mm512_loadu_ps(sum + 64 + pass);
+			acc4 = _mm512_add_ps(acc4, h1_1);
+			_mm512_storeu_ps(sum + 64 + pass, acc4);
+			const __m512 w0_2 = _mm512_mul_ps(w0_1, y1);
+			const __m512 h0_2 = _mm512_fmadd_ps(h0_1, y0, w0_2);
+			__m512 acc5 = _mm512_loadu_ps(sum + 80 + pass);
+			acc5 = _mm512_add_ps(acc5, h0_2);
+			_mm512_storeu_ps(sum + 80 + pass, acc5);
+			const __m512 w3_0 = _mm512_mul_ps(w2_0, x1);
+			const __m512 h3_0 = _mm512_fmadd_ps(h2_0, x0, w3_0);
+			__m512 acc6 = _mm512_loadu_ps(sum + 96 + pass);
+			acc6 = _mm512_add_ps(acc6, h3_0);
+			_mm512_storeu_ps(sum + 96 + pass, acc6);
+			const __m512 w2_1 = _mm512_mul_ps(w1_1, x1);
+			const __m512 t4 = _mm512_mul_ps(_mm512_set1_ps(3.0f), w2_1);
+			const __m512 t5 = _mm512_fmadd_ps(h2_0, y0, t4);
+			const __m512 h2_1 = _mm512_fmadd_ps(h1_1, x0, t5);
+			__m512 acc7 = _mm512_loadu_ps(sum + 112 + pass);
+			acc7 = _mm512_add_ps(acc7, h2_1);
+			_mm512_storeu_ps(sum + 112 + pass, acc7);
+			const __m512 w1_2 = _mm512_mul_ps(w0_2, x1);
+			const __m512 t6 = _mm512_mul_ps(_mm512_set1_ps(3.0f), w1_2);
+			const __m512 t7 = _mm512_fmadd_ps(h1_1, y0, t6);
+			const __m512 h1_2 = _mm512_fmadd_ps(h0_2, x0, t7);
+			__m512 acc8 = _mm512_loadu_ps(sum + 128 + pass);
+			acc8 = _mm512_add_ps(acc8, h1_2);
+			_mm512_storeu_ps(sum + 128 + pass, acc8);
+			const __m512 w0_3 = _mm512_mul_ps(w0_2, y1);
+			const __m512 h0_3 = _mm512_fmadd_ps(h0_2, y0, w0_3);
+			__m512 acc9 = _mm512_loadu_ps(sum + 144 + pass);
+			acc9 = _mm512_add_ps(acc9, h0_3);
+			_mm512_storeu_ps(sum + 144 + pass, acc9);
+			const __m512 w4_0 = _mm512_mul_ps(w3_0, x1);
+			const __m512 h4_0 = _mm512_fmadd_ps(h3_0, x0, w4_0);
+			__m512 acc10 = _mm512_loadu_ps(sum + 160 + pass);
+			acc10 = _mm512_add_ps(acc10, h4_0);
+			_mm512_storeu_ps(sum + 160 + pass, acc10);
+			const __m512 w3_1 = _mm512_mul_ps(w2_1, x1);
+			const __m512 t8 = _mm512_mul_ps(_mm512_set1_ps(4.0f), w3_1);
+			const __m512 t9 = _mm512_fmadd_ps(h3_0, y0, t8);
+			const __m512 h3_1 = _mm512_fmadd_ps(h2_1, x0, t9);
+			__m512 acc11 = _mm512_loadu_ps(sum + 176 + pass);
+			acc11 = _mm512_add_ps(acc11, h3_1);
+			_mm512_storeu_ps(sum + 176 + pass, acc11);
+			const __m512 w2_2 = _mm512_mul_ps(w1_2, x1);
+			const __m512 t10 = _mm512_mul_ps(_mm512_set1_ps(6.0f), w2_2);
+			const __m512 t11 = _mm512_fmadd_ps(h2_1, y0, t10);
+			const __m512 h2_2 = _mm512_fmadd_ps(h1_2, x0, t11);
+			__m512 acc12 = _mm512_loadu_ps(sum + 192 + pass);
+			acc12 = _mm512_add_ps(acc12, h2_2);
+			_mm512_storeu_ps(sum + 192 + pass, acc12);
+			const __m512 w1_3 = _mm512_mul_ps(w0_3, x1);
+			const __m512 t12 = _mm512_mul_ps(_mm512_set1_ps(4.0f), w1_3);
+			const __m512 t13 = _mm512_fmadd_ps(h1_2, y0, t12);
+			const __m512 h1_3 = _mm512_fmadd_ps(h0_3, x0, t13);
+			__m512 acc13 = _mm512_loadu_ps(sum + 208 + pass);
+			acc13 = _mm512_add_ps(acc13, h1_3);
+			_mm512_storeu_ps(sum + 208 + pass, acc13);
+			const __m512 w0_4 = _mm512_mul_ps(w0_3, y1);
+			const __m512 h0_4 = _mm512_fmadd_ps(h0_3, y0, w0_4);
+			__m512 acc14 = _mm512_loadu_ps(sum + 224 + pass);
+			acc14 = _mm512_add_ps(acc14, h0_4);
+			_mm512_storeu_ps(sum + 224 + pass, acc14);
+			const __m512 w5_0 = _mm512_mul_ps(w4_0, x1);
+			const __m512 h5_0 = _mm512_fmadd_ps(h4_0, x0, w5_0);
+			__m512 acc15 = _mm512_loadu_ps(sum + 240 + pass);
+			acc15 = _mm512_add_ps(acc15, h5_0);
+			_mm512_storeu_ps(sum + 240 + pass, acc15);
+			const __m512 w4_1 = _mm512_mul_ps(w3_1, x1);
+			const __m512 t14 = _mm512_mul_ps(_mm512_set1_ps(5.0f), w4_1);
+			const __m512 t15 = _mm512_fmadd_ps(h4_0, y0, t14);
+			const __m512 h4_1 = _mm512_fmadd_ps(h3_1, x0, t15);
+			__m512 acc16 = _mm512_loadu_ps(sum + 256 + pass);
+			acc16 = _mm512_add_ps(acc16, h4_1);
+			_mm512_storeu_ps(sum + 256 + pass, acc16);
+			const __m512 w3_2 = _mm512_mul_ps(w2_2, x1);
+			const __m512 t16 = _mm512_mul_ps(_mm512_set1_ps(10.0f), w3_2);
+			const __m512 t17 = _mm512_fmadd_ps(h3_1, y0, t16);
+			const __m512 h3_2 = _mm512_fmadd_ps(h2_2, x0, t17);
+			__m512 acc17 = _mm512_loadu_ps(sum + 272 + pass);
+			acc17 = _mm512_add_ps(acc17, h3_2);
+			_mm512_storeu_ps(sum + 272 + pass, acc17);
+			const __m512 w2_3 = _mm512_mul_ps(w1_3, x1);
+			const __m512 t18 = _mm512_mul_ps(_mm512_set1_ps(10.0f), w2_3);
+			const __m512 t19 = _mm512_fmadd_ps(h2_2, y0, t18);
+			const __m512 h2_3 = _mm512_fmadd_ps(h1_3, x0, t19);
+			__m512 acc18 = _mm512_loadu_ps(sum + 288 + pass);
+			acc18 = _mm512_add_ps(acc18, h2_3);
+			_mm512_storeu_ps(sum + 288 + pass, acc18);
+			const __m512 w1_4 = _mm512_mul_ps(w0_4, x1);
+			const __m512 t20 = _mm512_mul_ps(_mm512_set1_ps(5.0f), w1_4);
+			const __m512 t21 = _mm512_fmadd_ps(h1_3, y0, t20);
+			const __m512 h1_4 = _mm512_fmadd_ps(h0_4, x0, t21);
+			__m512 acc19 = _mm512_loadu_ps(sum + 304 + pass);
+			acc19 = _mm512_add_ps(acc19, h1_4);
+			_mm512_storeu_ps(sum + 304 + pass, acc19);
+			const __m512 w0_5 = _mm512_mul_ps(w0_4, y1);
+			const __m512 h0_5 = _mm512_fmadd_ps(h0_4, y0, w0_5);
+			__m512 acc20 = _mm512_loadu_ps(sum + 320 + pass);
+			acc20 = _mm512_add_ps(acc20, h0_5);
+			_mm512_storeu_ps(sum + 320 + pass, acc20);
+			const __m512 w6_0 = _mm512_mul_ps(w5_0, x1);
+			const __m512 h6_0 = _mm512_fmadd_ps(h5_0, x0, w6_0);
+			__m512 acc21 = _mm512_loadu_ps(sum + 336 + pass);
+			acc21 = _mm512_add_ps(acc21, h6_0);
+			_mm512_storeu_ps(sum + 336 + pass, acc21);
+			const __m512 w5_1 = _mm512_mul_ps(w4_1, x1);
+			const __m512 t22 = _mm512_mul_ps(_mm512_set1_ps(6.0f), w5_1);
+			const __m512 t23 = _mm512_fmadd_ps(h5_0, y0, t22);
+			const __m512 h5_1 = _mm512_fmadd_ps(h4_1, x0, t23);
+			__m512 acc22 = _mm512_loadu_ps(sum + 352 + pass);
+			acc22 = _mm512_add_ps(acc22, h5_1);
+			_mm512_storeu_ps(sum + 352 + pass, acc22);
+			const __m512 w4_2 = _mm512_mul_ps(w3_2, x1);
+			const __m512 t24 = _mm512_mul_ps(_mm512_set1_ps(15.0f), w4_2);
+			const __m512 t25 = _mm512_fmadd_ps(h4_1, y0, t24);
+			const __m512 h4_2 = _mm512_fmadd_ps(h3_2, x0, t25);
+			__m512 acc23 = _mm512_loadu_ps(sum + 368 + pass);
+			acc23 = _mm512_add_ps(acc23, h4_2);
+			_mm512_storeu_ps(sum + 368 + pass, acc23);
+			const __m512 w3_3 = _mm512_mul_ps(w2_3, x1);
+			const __m512 t26 = _mm512_mul_ps(_mm512_set1_ps(20.0f), w3_3);
+			const __m512 t27 = _mm512_fmadd_ps(h3_2, y0, t26);
+			const __m512 h3_3 = _mm512_fmadd_ps(h2_3, x0, t27);
+			__m512 acc24 = _mm512_loadu_ps(sum + 384 + pass);
+			acc24 = _mm512_add_ps(acc24, h3_3);
+			_mm512_storeu_ps(sum + 384 + pass, acc24);
+			const __m512 w2_4 = _mm512_mul_ps(w1_4, x1);
+			const __m512 t28 = _mm512_mul_ps(_mm512_set1_ps(15.0f), w2_4);
+			const __m512 t29 = _mm512_fmadd_ps(h2_3, y0, t28);
+			const __m512 h2_4 = _mm512_fmadd_ps(h1_4, x0, t29);
+			__m512 acc25 = _mm512_loadu_ps(sum + 400 + pass);
+			acc25 = _mm512_add_ps(acc25, h2_4);
+			_mm512_storeu_ps(sum + 400 + pass, acc25);
+			const __m512 w1_5 = _mm512_mul_ps(w0_5, x1);
+			const __m512 t30 = _mm512_mul_ps(_mm512_set1_ps(6.0f), w1_5);
+			const __m512 t31 = _mm512_fmadd_ps(h1_4, y0, t30);
+			const __m512 h1_5 = _mm512_fmadd_ps(h0_5, x0, t31);
+			__m512 acc26 = _mm512_loadu_ps(sum + 416 + pass);
+			acc26 = _mm512_add_ps(acc26, h1_5);
+			_mm512_storeu_ps(sum + 416 + pass, acc26);
+			const __m512 w0_6 = _mm512_mul_ps(w0_5, y1);
+			const __m512 h0_6 = _mm512_fmadd_ps(h0_5, y0, w0_6);
+			__m512 acc27 = _mm512_loadu_ps(sum + 432 + pass);
+			acc27 = _mm512_add_ps(acc27, h0_6);
+			_mm512_storeu_ps(sum + 432 + pass, acc27);
+			const __m512 w7_0 = _mm512_mul_ps(w6_0, x1);
+			const __m512 h7_0 = _mm512_fmadd_ps(h6_0, x0, w7_0);
+			__m512 acc28 = _mm512_loadu_ps(sum + 448 + pass);
+			acc28 = _mm512_add_ps(acc28, h7_0);
+			_mm512_storeu_ps(sum + 448 + pass, acc28);
+			const __m512 w6_1 = _mm512_mul_ps(w5_1, x1);
+			const __m512 t32 = _mm512_mul_ps(_mm512_set1_ps(7.0f), w6_1);
+			const __m512 t33 = _mm512_fmadd_ps(h6_0, y0, t32);
+			const __m512 h6_1 = _mm512_fmadd_ps(h5_1, x0, t33);
+			__m512 acc29 = _mm512_loadu_ps(sum + 464 + pass);
+			acc29 = _mm512_add_ps(acc29, h6_1);
+			_mm512_storeu_ps(sum + 464 + pass, acc29);
+			const __m512 w5_2 = _mm512_mul_ps(w4_2, x1);
+			const __m512 t34 = _mm512_mul_ps(_mm512_set1_ps(21.0f), w5_2);
+			const __m512 t35 = _mm512_fmadd_ps(h5_1, y0, t34);
+			const __m512 h5_2 = _mm512_fmadd_ps(h4_2, x0, t35);
+			__m512 acc30 = _mm512_loadu_ps(sum + 480 + pass);
+			acc30 = _mm512_add_ps(acc30, h5_2);
+			_mm512_storeu_ps(sum + 480 + pass, acc30);
+			const __m512 w4_3 = _mm512_mul_ps(w3_3, x1);
+			const __m512 t36 = _mm512_mul_ps(_mm512_set1_ps(35.0f), w4_3);
+			const __m512 t37 = _mm512_fmadd_ps(h4_2, y0, t36);
+			const __m512 h4_3 = _mm512_fmadd_ps(h3_3, x0, t37);
+			__m512 acc31 = _mm512_loadu_ps(sum + 496 + pass);
+			acc31 = _mm512_add_ps(acc31, h4_3);
+			_mm512_storeu_ps(sum + 496 + pass, acc31);
+			const __m512 w3_4 = _mm512_mul_ps(w2_4, x1);
+			const __m512 t38 = _mm512_mul_ps(_mm512_set1_ps(35.0f), w3_4);
+			const __m512 t39 = _mm512_fmadd_ps(h3_3, y0, t38);
+			const __m512 h3_4 = _mm512_fmadd_ps(h2_4, x0, t39);
+			__m512 acc32 = _mm512_loadu_ps(sum + 512 + pass);
+			acc32 = _mm512_add_ps(acc32, h3_4);
+			_mm512_storeu_ps(sum + 512 + pass, acc32);
+			const __m512 w2_5 = _mm512_mul_ps(w1_5, x1);
+			const __m512 t40 = _mm512_mul_ps(_mm512_set1_ps(21.0f), w2_5);
+			const __m512 t41 = _mm512_fmadd_ps(h2_4, y0, t40);
+			const __m512 h2_5 = _mm512_fmadd_ps(h1_5, x0, t41);
+			__m512 acc33 = _mm512_loadu_ps(sum + 528 + pass);
+			acc33 = _mm512_add_ps(acc33, h2_5);
+			_mm512_storeu_ps(sum + 528 + pass, acc33);
+			const __m512 w1_6 = _mm512_mul_ps(w0_6, x1);
+			const __m512 t42 = _mm512_mul_ps(_mm512_set1_ps(7.0f), w1_6);
+			const __m512 t43 = _mm512_fmadd_ps(h1_5, y0, t42);
+			const __m512 h1_6 = _mm512_fmadd_ps(h0_6, x0, t43);
+			__m512 acc34 = _mm512_loadu_ps(sum + 544 + pass);
+			acc34 = _mm512_add_ps(acc34, h1_6);
+			_mm512_storeu_ps(sum + 544 + pass, acc34);
+			const __m512 w0_7 = _mm512_mul_ps(w0_6, y1);
+			const __m512 h0_7 = _mm512_fmadd_ps(h0_6, y0, w0_7);
+			__m512 acc35 = _mm512_loadu_ps(sum + 560 + pass);
+			acc35 = _mm512_add_ps(acc35, h0_7);
+			_mm512_storeu_ps(sum + 560 + pass, acc35);
+			__m512 acc36 = _mm512_loadu_ps(sum + 576 + pass);
+			const __m512 t44 = _mm512_fmadd_ps(w7_0, x1, acc36);
+			acc36 = _mm512_fmadd_ps(h7_0, x0, t44);
+			_mm512_storeu_ps(sum + 576 + pass, acc36);
+			__m512 acc37 = _mm512_loadu_ps(sum + 592 + pass);
+			const __m512 t45 = _mm512_fmadd_ps(h7_0, y0, acc37);
+			acc37 = _mm512_fmadd_ps(h6_1, x0, t45);
+			_mm512_storeu_ps(sum + 592 + pass, acc37);
+			__m512 acc38 = _mm512_loadu_ps(sum + 608 + pass);
+			const __m512 t46 = _mm512_fmadd_ps(h6_1, y0, acc38);
+			acc38 = _mm512_fmadd_ps(h5_2, x0, t46);
+			_mm512_storeu_ps(sum + 608 + pass, acc38);
+			__m512 acc39 = _mm512_loadu_ps(sum + 624 + pass);
+			const __m512 t47 = _mm512_fmadd_ps(h5_2, y0, acc39);
+			acc39 = _mm512_fmadd_ps(h4_3, x0, t47);
+			_mm512_storeu_ps(sum + 624 + pass, acc39);
+			__m512 acc40 = _mm512_loadu_ps(sum + 640 + pass);
+			const __m512 t48 = _mm512_fmadd_ps(h4_3, y0, acc40);
+			acc40 = _mm512_fmadd_ps(h3_4, x0, t48);
+			_mm512_storeu_ps(sum + 640 + pass, acc40);
+			__m512 acc41 = _mm512_loadu_ps(sum + 656 + pass);
+			const __m512 t49 = _mm512_fmadd_ps(h3_4, y0, acc41);
+			acc41 = _mm512_fmadd_ps(h2_5, x0, t49);
+			_mm512_storeu_ps(sum + 656 + pass, acc41);
+			__m512 acc42 = _mm512_loadu_ps(sum + 672 + pass);
+			const __m512 t50 = _mm512_fmadd_ps(h2_5, y0, acc42);
+			acc42 = _mm512_fmadd_ps(h1_6, x0, t50);
+			_mm512_storeu_ps(sum + 672 + pass, acc42);
+			__m512 acc43 = _mm512_loadu_ps(sum + 688 + pass);
+			const __m512 t51 = _mm512_fmadd_ps(h1_6, y0, acc43);
+			acc43 = _mm512_fmadd_ps(h0_7, x0, t51);
+			_mm512_storeu_ps(sum + 688 + pass, acc43);
+			__m512 acc44 = _mm512_loadu_ps(sum + 704 + pass);
+			const __m512 t52 = _mm512_fmadd_ps(w0_7, y1, acc44);
+			acc44 = _mm512_fmadd_ps(h0_7, y0, t52);
+			_mm512_storeu_ps(sum + 704 + pass, acc44);
+			__m512 acc45 = _mm512_loadu_ps(sum + 720 + pass);
+			acc45 = _mm512_fmadd_ps(w6_1, x1, acc45);
+			_mm512_storeu_ps(sum + 720 + pass, acc45);
+			__m512 acc46 = _mm512_loadu_ps(sum + 736 + pass);
+			acc46 = _mm512_fmadd_ps(w5_2, x1, acc46);
+			_mm512_storeu_ps(sum + 736 + pass, acc46);
+			__m512 acc47 = _mm512_loadu_ps(sum + 752 + pass);
+			acc47 = _mm512_fmadd_ps(w4_3, x1, acc47);
+			_mm512_storeu_ps(sum + 752 + pass, acc47);
+			__m512 acc48 = _mm512_loadu_ps(sum + 768 + pass);
+			acc48 = _mm512_fmadd_ps(w3_4, x1, acc48);
+			_mm512_storeu_ps(sum + 768 + pass, acc48);
+			__m512 acc49 = _mm512_loadu_ps(sum + 784 + pass);
+			acc49 = _mm512_fmadd_ps(w2_5, x1, acc49);
+			_mm512_storeu_ps(sum + 784 + pass, acc49);
+			__m512 acc50 = _mm512_loadu_ps(sum + 800 + pass);
+			acc50 = _mm512_fmadd_ps(w1_6, x1, acc50);
+			_mm512_storeu_ps(sum + 800 + pass, acc50);
+			__m512 acc51 = _mm512_loadu_ps(sum + 816 + pass);
+			acc51 = _mm512_fmadd_ps(w0_7, x1, acc51);
 			_mm512_storeu_ps(sum + 816 + pass, acc51);
 		}
 	}

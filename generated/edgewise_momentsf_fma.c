@@ -16,24 +16,26 @@
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_0f_fma(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
+		const float cx = origin[lane];
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
-		for (size_t i = lane; i < count; i += 32) {
+		for (size_t i = lane; i < count; i += 2 * step) {
 			{
 				const float y0 = y[i];
-				const float x1 = x[i + 1];
-				const float y2 = y[i + 2];
+				const float x1 = x[i + reach];
+				const float y2 = y[i + 2 * reach];
 				const float width = x1 - cx;
 				const float height = y2 - y0;
 				acc0 = fmaf(width, height, acc0);
 			}
-			if (count - i > 16) {
-				const float y0 = y[i + 16];
-				const float x1 = x[i + 17];
-				const float y2 = y[i + 18];
+			if (count - i > step) {
+				const float y0 = y[i + step];
+				const float x1 = x[i + step + reach];
+				const float y2 = y[i + step + 2 * reach];
 				const float width = x1 - cx;
 				const float height = y2 - y0;
 				acc1 = fmaf(width, height, acc1);
@@ -47,18 +49,19 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_0f_fma(
 /* all moments of x^m y^n, m + n <= 1; scheme even-power.
  * Cost per item: 4 mul or fma, 4 add; 3 accumulators, 7 values alive, depth 3. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_1f_fma(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
@@ -77,21 +80,22 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_1f_fma(
 /* all moments of x^m y^n, m + n <= 2; scheme shared.
  * Cost per item: 12 mul or fma, 6 add; 6 accumulators, 10 values alive, depth 4. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_2f_fma(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
 		float acc3 = sum[48 + lane];
 		float acc4 = sum[64 + lane];
 		float acc5 = sum[80 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
@@ -123,10 +127,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_2f_fma(
 /* all moments of x^m y^n, m + n <= 3; scheme even-power.
  * Cost per item: 18 mul or fma, 14 add; 15 accumulators, 11 values alive, depth 6. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_3f_fma(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
@@ -142,11 +147,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_3f_fma(
 		float acc12 = sum[192 + lane];
 		float acc13 = sum[208 + lane];
 		float acc14 = sum[224 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
@@ -201,10 +206,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_3f_fma(
 /* all moments of x^m y^n, m + n <= 4; scheme even-power.
  * Cost per item: 33 mul or fma, 12 add; 26 accumulators, 15 values alive, depth 5. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_4f_fma(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
@@ -231,11 +237,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_4f_fma(
 		float acc23 = sum[368 + lane];
 		float acc24 = sum[384 + lane];
 		float acc25 = sum[400 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
@@ -314,10 +320,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_4f_fma(
 /* all moments of x^m y^n, m + n <= 5; scheme recurrence.
  * Cost per item: 58 mul or fma, 16 add; 25 accumulators, 16 values alive, depth 13. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_5f_fma(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
@@ -343,11 +350,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_5f_fma(
 		float acc22 = sum[352 + lane];
 		float acc23 = sum[368 + lane];
 		float acc24 = sum[384 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
@@ -454,10 +461,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_5f_fma(
 /* all moments of x^m y^n, m + n <= 6; scheme recurrence.
  * Cost per item: 81 mul or fma, 22 add; 33 accumulators, 18 values alive, depth 15. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_6f_fma(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
@@ -491,11 +499,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_6f_fma(
 		float acc30 = sum[480 + lane];
 		float acc31 = sum[496 + lane];
 		float acc32 = sum[512 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
@@ -639,10 +647,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_6f_fma(
 /* all moments of x^m y^n, m + n <= 7; scheme recurrence.
  * Cost per item: 108 mul or fma, 29 add; 42 accumulators, 20 values alive, depth 17. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_7f_fma(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
@@ -685,11 +694,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_7f_fma(
 		float acc39 = sum[624 + lane];
 		float acc40 = sum[640 + lane];
 		float acc41 = sum[656 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
@@ -876,10 +885,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_7f_fma(
 /* all moments of x^m y^n, m + n <= 8; scheme recurrence.
  * Cost per item: 139 mul or fma, 37 add; 52 accumulators, 22 values alive, depth 19. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_8f_fma(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
@@ -932,11 +942,11 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_8f_fma(
 		float acc49 = sum[784 + lane];
 		float acc50 = sum[800 + lane];
 		float acc51 = sum[816 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;

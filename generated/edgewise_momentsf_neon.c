@@ -16,40 +16,56 @@
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_0f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	const float32x4_t cx = vdupq_n_f32(origin);
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
+		const float32x4_t cx = vld1q_f32(origin + pass);
 		float32x4_t acc0 = vld1q_f32(sum + pass);
 		float32x4_t acc1 = vld1q_f32(sum + 16 + pass);
-		for (size_t i = pass; i < count; i += 32) {
+		size_t i = pass;
+		for (; i + step + 3 < count; i += 2 * step) {
+			{
+				const float32x4_t y0 = vld1q_f32(y + i);
+				const float32x4_t x1 = vld1q_f32(x + i + reach);
+				const float32x4_t y2 = vld1q_f32(y + i + 2 * reach);
+				const float32x4_t width = vsubq_f32(x1, cx);
+				const float32x4_t height = vsubq_f32(y2, y0);
+				acc0 = vfmaq_f32(acc0, width, height);
+			}
+			{
+				const float32x4_t y0 = vld1q_f32(y + i + step);
+				const float32x4_t x1 = vld1q_f32(x + i + step + reach);
+				const float32x4_t y2 = vld1q_f32(y + i + step + 2 * reach);
+				const float32x4_t width = vsubq_f32(x1, cx);
+				const float32x4_t height = vsubq_f32(y2, y0);
+				acc1 = vfmaq_f32(acc1, width, height);
+			}
+		}
+		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
 				float pad[4][4];
-				const float *at_y0 = rest < 4
-					? ew_ring_padf(pad[0], y + i, rest, 4) : y + i;
+				int at = 0;
+				const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 				const float32x4_t y0 = vld1q_f32(at_y0);
-				const float *at_x1 = rest < 4
-					? ew_ring_padf(pad[1], x + i + 1, rest, 4) : x + i + 1;
+				const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 				const float32x4_t x1 = vld1q_f32(at_x1);
-				const float *at_y2 = rest < 4
-					? ew_ring_padf(pad[2], y + i + 2, rest, 4) : y + i + 2;
+				const float *at_y2 = ew_ring_padf(pad[at++], y + i + 2 * reach, rest, 4);
 				const float32x4_t y2 = vld1q_f32(at_y2);
 				const float32x4_t width = vsubq_f32(x1, cx);
 				const float32x4_t height = vsubq_f32(y2, y0);
 				acc0 = vfmaq_f32(acc0, width, height);
 			}
 			{
-				const size_t rest = count - i > 16 ? count - i - 16 : 0;
+				const size_t rest = count - i > step ? count - i - step : 0;
 				float pad[4][4];
-				const float *at_y0 = rest < 4
-					? ew_ring_padf(pad[0], y + i + 16, rest, 4) : y + i + 16;
+				int at = 0;
+				const float *at_y0 = ew_ring_padf(pad[at++], y + i + step, rest, 4);
 				const float32x4_t y0 = vld1q_f32(at_y0);
-				const float *at_x1 = rest < 4
-					? ew_ring_padf(pad[1], x + i + 17, rest, 4) : x + i + 17;
+				const float *at_x1 = ew_ring_padf(pad[at++], x + i + step + reach, rest, 4);
 				const float32x4_t x1 = vld1q_f32(at_x1);
-				const float *at_y2 = rest < 4
-					? ew_ring_padf(pad[2], y + i + 18, rest, 4) : y + i + 18;
+				const float *at_y2 = ew_ring_padf(pad[at++], y + i + step + 2 * reach, rest, 4);
 				const float32x4_t y2 = vld1q_f32(at_y2);
 				const float32x4_t width = vsubq_f32(x1, cx);
 				const float32x4_t height = vsubq_f32(y2, y0);
@@ -64,27 +80,40 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_0f_neon(
 /* all moments of x^m y^n, m + n <= 1; scheme even-power.
  * Cost per item: 4 mul or fma, 4 add; 3 accumulators, 7 values alive, depth 3. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_1f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
 		float32x4_t acc1 = vld1q_f32(sum + 16 + pass);
 		float32x4_t acc2 = vld1q_f32(sum + 32 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			acc0 = vaddq_f32(acc0, s);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			acc1 = vfmaq_f32(acc1, s, a);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			acc2 = vfmaq_f32(acc2, s, b);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -104,30 +133,53 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_1f_neon(
 /* all moments of x^m y^n, m + n <= 2; scheme shared.
  * Cost per item: 12 mul or fma, 6 add; 6 accumulators, 10 values alive, depth 4. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_2f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
 		float32x4_t acc1 = vld1q_f32(sum + 16 + pass);
 		float32x4_t acc2 = vld1q_f32(sum + 32 + pass);
 		float32x4_t acc3 = vld1q_f32(sum + 48 + pass);
 		float32x4_t acc4 = vld1q_f32(sum + 64 + pass);
 		float32x4_t acc5 = vld1q_f32(sum + 80 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			acc0 = vaddq_f32(acc0, s);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			acc1 = vfmaq_f32(acc1, s, a);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			acc2 = vfmaq_f32(acc2, s, b);
+			const float32x4_t t2 = vmulq_f32(x1, x1);
+			const float32x4_t xx = vfmaq_f32(t2, a, x0);
+			acc3 = vfmaq_f32(acc3, s, xx);
+			const float32x4_t t3 = vaddq_f32(a, a);
+			const float32x4_t t4 = vaddq_f32(t0, t1);
+			const float32x4_t xy = vfmaq_f32(vnegq_f32(t4), b, t3);
+			acc4 = vfmaq_f32(acc4, s, xy);
+			const float32x4_t t5 = vmulq_f32(y1, y1);
+			const float32x4_t yy = vfmaq_f32(t5, b, y0);
+			acc5 = vfmaq_f32(acc5, s, yy);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -160,10 +212,11 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_2f_neon(
 /* all moments of x^m y^n, m + n <= 3; scheme even-power.
  * Cost per item: 18 mul or fma, 14 add; 15 accumulators, 11 values alive, depth 6. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_3f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
 		float32x4_t acc1 = vld1q_f32(sum + 16 + pass);
 		float32x4_t acc2 = vld1q_f32(sum + 32 + pass);
@@ -179,20 +232,56 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_3f_neon(
 		float32x4_t acc12 = vld1q_f32(sum + 192 + pass);
 		float32x4_t acc13 = vld1q_f32(sum + 208 + pass);
 		float32x4_t acc14 = vld1q_f32(sum + 224 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			acc0 = vaddq_f32(acc0, s);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			const float32x4_t t2 = vmulq_f32(s, a);
+			acc1 = vaddq_f32(acc1, t2);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			const float32x4_t t3 = vmulq_f32(s, b);
+			acc2 = vaddq_f32(acc2, t3);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t t4 = vmulq_f32(s, e);
+			const float32x4_t qxx = vmulq_f32(e, t4);
+			const float32x4_t txx = vfmaq_f32(qxx, a, t2);
+			acc3 = vaddq_f32(acc3, txx);
+			acc4 = vaddq_f32(acc4, qxx);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t qxy = vmulq_f32(f, t4);
+			const float32x4_t txy = vfmaq_f32(qxy, b, t2);
+			acc5 = vaddq_f32(acc5, txy);
+			acc6 = vaddq_f32(acc6, qxy);
+			const float32x4_t t5 = vmulq_f32(s, f);
+			const float32x4_t qyy = vmulq_f32(f, t5);
+			const float32x4_t tyy = vfmaq_f32(qyy, b, t3);
+			acc7 = vaddq_f32(acc7, tyy);
+			acc8 = vaddq_f32(acc8, qyy);
+			acc9 = vfmaq_f32(acc9, a, txx);
+			acc10 = vfmaq_f32(acc10, b, txx);
+			acc11 = vfmaq_f32(acc11, a, txy);
+			acc12 = vfmaq_f32(acc12, b, txy);
+			acc13 = vfmaq_f32(acc13, a, tyy);
+			acc14 = vfmaq_f32(acc14, b, tyy);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -248,10 +337,11 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_3f_neon(
 /* all moments of x^m y^n, m + n <= 4; scheme even-power.
  * Cost per item: 33 mul or fma, 12 add; 26 accumulators, 15 values alive, depth 5. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_4f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
 		float32x4_t acc0 = vld1q_f32(sum + pass);
 		float32x4_t acc1 = vld1q_f32(sum + 16 + pass);
 		float32x4_t acc2 = vld1q_f32(sum + 32 + pass);
@@ -278,20 +368,69 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_4f_neon(
 		float32x4_t acc23 = vld1q_f32(sum + 368 + pass);
 		float32x4_t acc24 = vld1q_f32(sum + 384 + pass);
 		float32x4_t acc25 = vld1q_f32(sum + 400 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+		size_t i = pass;
+		for (; i + 3 < count; i += step) {
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			acc0 = vaddq_f32(acc0, s);
+			const float32x4_t a = vaddq_f32(x0, x1);
+			acc1 = vfmaq_f32(acc1, s, a);
+			const float32x4_t b = vaddq_f32(y0, y1);
+			acc2 = vfmaq_f32(acc2, s, b);
+			const float32x4_t e = vsubq_f32(x1, x0);
+			const float32x4_t ee = vmulq_f32(e, e);
+			const float32x4_t rxx = vfmaq_f32(ee, a, a);
+			const float32x4_t txx = vmulq_f32(s, rxx);
+			acc3 = vaddq_f32(acc3, txx);
+			const float32x4_t qxx = vmulq_f32(s, ee);
+			acc4 = vaddq_f32(acc4, qxx);
+			const float32x4_t f = vsubq_f32(y1, y0);
+			const float32x4_t ef = vmulq_f32(e, f);
+			const float32x4_t rxy = vfmaq_f32(ef, a, b);
+			const float32x4_t txy = vmulq_f32(s, rxy);
+			acc5 = vaddq_f32(acc5, txy);
+			const float32x4_t qxy = vmulq_f32(s, ef);
+			acc6 = vaddq_f32(acc6, qxy);
+			const float32x4_t ff = vmulq_f32(f, f);
+			const float32x4_t ryy = vfmaq_f32(ff, b, b);
+			const float32x4_t tyy = vmulq_f32(s, ryy);
+			acc7 = vaddq_f32(acc7, tyy);
+			const float32x4_t qyy = vmulq_f32(s, ff);
+			acc8 = vaddq_f32(acc8, qyy);
+			acc9 = vfmaq_f32(acc9, a, txx);
+			acc10 = vfmaq_f32(acc10, b, txx);
+			acc11 = vfmaq_f32(acc11, a, txy);
+			acc12 = vfmaq_f32(acc12, b, txy);
+			acc13 = vfmaq_f32(acc13, a, tyy);
+			acc14 = vfmaq_f32(acc14, b, tyy);
+			acc15 = vfmaq_f32(acc15, rxx, txx);
+			acc16 = vfmaq_f32(acc16, txx, rxy);
+			acc17 = vfmaq_f32(acc17, txx, ryy);
+			acc18 = vfmaq_f32(acc18, rxy, txy);
+			acc19 = vfmaq_f32(acc19, txy, ryy);
+			acc20 = vfmaq_f32(acc20, ryy, tyy);
+			acc21 = vfmaq_f32(acc21, ee, qxx);
+			acc22 = vfmaq_f32(acc22, qxx, ef);
+			acc23 = vfmaq_f32(acc23, qxx, ff);
+			acc24 = vfmaq_f32(acc24, qxy, ff);
+			acc25 = vfmaq_f32(acc25, ff, qyy);
+		}
+		for (; i < count; i += step) {
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -371,189 +510,381 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_4f_neon(
 /* all moments of x^m y^n, m + n <= 5; scheme recurrence.
  * Cost per item: 58 mul or fma, 16 add; 25 accumulators, 16 values alive, depth 13. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_5f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
-		float32x4_t acc0 = vld1q_f32(sum + pass);
-		float32x4_t acc1 = vld1q_f32(sum + 16 + pass);
-		float32x4_t acc2 = vld1q_f32(sum + 32 + pass);
-		float32x4_t acc3 = vld1q_f32(sum + 48 + pass);
-		float32x4_t acc4 = vld1q_f32(sum + 64 + pass);
-		float32x4_t acc5 = vld1q_f32(sum + 80 + pass);
-		float32x4_t acc6 = vld1q_f32(sum + 96 + pass);
-		float32x4_t acc7 = vld1q_f32(sum + 112 + pass);
-		float32x4_t acc8 = vld1q_f32(sum + 128 + pass);
-		float32x4_t acc9 = vld1q_f32(sum + 144 + pass);
-		float32x4_t acc10 = vld1q_f32(sum + 160 + pass);
-		float32x4_t acc11 = vld1q_f32(sum + 176 + pass);
-		float32x4_t acc12 = vld1q_f32(sum + 192 + pass);
-		float32x4_t acc13 = vld1q_f32(sum + 208 + pass);
-		float32x4_t acc14 = vld1q_f32(sum + 224 + pass);
-		float32x4_t acc15 = vld1q_f32(sum + 240 + pass);
-		float32x4_t acc16 = vld1q_f32(sum + 256 + pass);
-		float32x4_t acc17 = vld1q_f32(sum + 272 + pass);
-		float32x4_t acc18 = vld1q_f32(sum + 288 + pass);
-		float32x4_t acc19 = vld1q_f32(sum + 304 + pass);
-		float32x4_t acc20 = vld1q_f32(sum + 320 + pass);
-		float32x4_t acc21 = vld1q_f32(sum + 336 + pass);
-		float32x4_t acc22 = vld1q_f32(sum + 352 + pass);
-		float32x4_t acc23 = vld1q_f32(sum + 368 + pass);
-		float32x4_t acc24 = vld1q_f32(sum + 384 + pass);
-		for (size_t i = pass; i < count; i += 16) {
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
+		size_t i = pass;
+		for (; i + step + 3 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t x0_2 = vld1q_f32(x + i + step);
+			const float32x4_t y0_2 = vld1q_f32(y + i + step);
+			const float32x4_t x1_2 = vld1q_f32(x + i + step + reach);
+			const float32x4_t y1_2 = vld1q_f32(y + i + step + reach);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t0_2 = vmulq_f32(x0_2, y1_2);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t t1_2 = vmulq_f32(x1_2, y0_2);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			const float32x4_t s_2 = vsubq_f32(t0_2, t1_2);
+			float32x4_t acc0 = vld1q_f32(sum + pass);
+			acc0 = vaddq_f32(acc0, s);
+			acc0 = vaddq_f32(acc0, s_2);
+			vst1q_f32(sum + pass, acc0);
+			const float32x4_t w1_0 = vmulq_f32(s, x1);
+			const float32x4_t w1_0_2 = vmulq_f32(s_2, x1_2);
+			const float32x4_t h1_0 = vfmaq_f32(w1_0, s, x0);
+			const float32x4_t h1_0_2 = vfmaq_f32(w1_0_2, s_2, x0_2);
+			float32x4_t acc1 = vld1q_f32(sum + 16 + pass);
+			acc1 = vaddq_f32(acc1, h1_0);
+			acc1 = vaddq_f32(acc1, h1_0_2);
+			vst1q_f32(sum + 16 + pass, acc1);
+			const float32x4_t w0_1 = vmulq_f32(s, y1);
+			const float32x4_t w0_1_2 = vmulq_f32(s_2, y1_2);
+			const float32x4_t h0_1 = vfmaq_f32(w0_1, s, y0);
+			const float32x4_t h0_1_2 = vfmaq_f32(w0_1_2, s_2, y0_2);
+			float32x4_t acc2 = vld1q_f32(sum + 32 + pass);
+			acc2 = vaddq_f32(acc2, h0_1);
+			acc2 = vaddq_f32(acc2, h0_1_2);
+			vst1q_f32(sum + 32 + pass, acc2);
+			const float32x4_t w2_0 = vmulq_f32(w1_0, x1);
+			const float32x4_t w2_0_2 = vmulq_f32(w1_0_2, x1_2);
+			const float32x4_t h2_0 = vfmaq_f32(w2_0, h1_0, x0);
+			const float32x4_t h2_0_2 = vfmaq_f32(w2_0_2, h1_0_2, x0_2);
+			float32x4_t acc3 = vld1q_f32(sum + 48 + pass);
+			acc3 = vaddq_f32(acc3, h2_0);
+			acc3 = vaddq_f32(acc3, h2_0_2);
+			vst1q_f32(sum + 48 + pass, acc3);
+			const float32x4_t w1_1 = vmulq_f32(w0_1, x1);
+			const float32x4_t w1_1_2 = vmulq_f32(w0_1_2, x1_2);
+			const float32x4_t t2 = vmulq_f32(vdupq_n_f32(2.0f), w1_1);
+			const float32x4_t t2_2 = vmulq_f32(vdupq_n_f32(2.0f), w1_1_2);
+			const float32x4_t t3 = vfmaq_f32(t2, h1_0, y0);
+			const float32x4_t t3_2 = vfmaq_f32(t2_2, h1_0_2, y0_2);
+			const float32x4_t h1_1 = vfmaq_f32(t3, h0_1, x0);
+			const float32x4_t h1_1_2 = vfmaq_f32(t3_2, h0_1_2, x0_2);
+			float32x4_t acc4 = vld1q_f32(sum + 64 + pass);
+			acc4 = vaddq_f32(acc4, h1_1);
+			acc4 = vaddq_f32(acc4, h1_1_2);
+			vst1q_f32(sum + 64 + pass, acc4);
+			const float32x4_t w0_2 = vmulq_f32(w0_1, y1);
+			const float32x4_t w0_2_2 = vmulq_f32(w0_1_2, y1_2);
+			const float32x4_t h0_2 = vfmaq_f32(w0_2, h0_1, y0);
+			const float32x4_t h0_2_2 = vfmaq_f32(w0_2_2, h0_1_2, y0_2);
+			float32x4_t acc5 = vld1q_f32(sum + 80 + pass);
+			acc5 = vaddq_f32(acc5, h0_2);
+			acc5 = vaddq_f32(acc5, h0_2_2);
+			vst1q_f32(sum + 80 + pass, acc5);
+			const float32x4_t w3_0 = vmulq_f32(w2_0, x1);
+			const float32x4_t w3_0_2 = vmulq_f32(w2_0_2, x1_2);
+			const float32x4_t h3_0 = vfmaq_f32(w3_0, h2_0, x0);
+			const float32x4_t h3_0_2 = vfmaq_f32(w3_0_2, h2_0_2, x0_2);
+			float32x4_t acc6 = vld1q_f32(sum + 96 + pass);
+			acc6 = vaddq_f32(acc6, h3_0);
+			acc6 = vaddq_f32(acc6, h3_0_2);
+			vst1q_f32(sum + 96 + pass, acc6);
+			const float32x4_t w2_1 = vmulq_f32(w1_1, x1);
+			const float32x4_t w2_1_2 = vmulq_f32(w1_1_2, x1_2);
+			const float32x4_t t4 = vmulq_f32(vdupq_n_f32(3.0f), w2_1);
+			const float32x4_t t4_2 = vmulq_f32(vdupq_n_f32(3.0f), w2_1_2);
+			const float32x4_t t5 = vfmaq_f32(t4, h2_0, y0);
+			const float32x4_t t5_2 = vfmaq_f32(t4_2, h2_0_2, y0_2);
+			const float32x4_t h2_1 = vfmaq_f32(t5, h1_1, x0);
+			const float32x4_t h2_1_2 = vfmaq_f32(t5_2, h1_1_2, x0_2);
+			float32x4_t acc7 = vld1q_f32(sum + 112 + pass);
+			acc7 = vaddq_f32(acc7, h2_1);
+			acc7 = vaddq_f32(acc7, h2_1_2);
+			vst1q_f32(sum + 112 + pass, acc7);
+			const float32x4_t w1_2 = vmulq_f32(w0_2, x1);
+			const float32x4_t w1_2_2 = vmulq_f32(w0_2_2, x1_2);
+			const float32x4_t t6 = vmulq_f32(vdupq_n_f32(3.0f), w1_2);
+			const float32x4_t t6_2 = vmulq_f32(vdupq_n_f32(3.0f), w1_2_2);
+			const float32x4_t t7 = vfmaq_f32(t6, h1_1, y0);
+			const float32x4_t t7_2 = vfmaq_f32(t6_2, h1_1_2, y0_2);
+			const float32x4_t h1_2 = vfmaq_f32(t7, h0_2, x0);
+			const float32x4_t h1_2_2 = vfmaq_f32(t7_2, h0_2_2, x0_2);
+			float32x4_t acc8 = vld1q_f32(sum + 128 + pass);
+			acc8 = vaddq_f32(acc8, h1_2);
+			acc8 = vaddq_f32(acc8, h1_2_2);
+			vst1q_f32(sum + 128 + pass, acc8);
+			const float32x4_t w0_3 = vmulq_f32(w0_2, y1);
+			const float32x4_t w0_3_2 = vmulq_f32(w0_2_2, y1_2);
+			const float32x4_t h0_3 = vfmaq_f32(w0_3, h0_2, y0);
+			const float32x4_t h0_3_2 = vfmaq_f32(w0_3_2, h0_2_2, y0_2);
+			float32x4_t acc9 = vld1q_f32(sum + 144 + pass);
+			acc9 = vaddq_f32(acc9, h0_3);
+			acc9 = vaddq_f32(acc9, h0_3_2);
+			vst1q_f32(sum + 144 + pass, acc9);
+			const float32x4_t w4_0 = vmulq_f32(w3_0, x1);
+			const float32x4_t w4_0_2 = vmulq_f32(w3_0_2, x1_2);
+			const float32x4_t h4_0 = vfmaq_f32(w4_0, h3_0, x0);
+			const float32x4_t h4_0_2 = vfmaq_f32(w4_0_2, h3_0_2, x0_2);
+			float32x4_t acc10 = vld1q_f32(sum + 160 + pass);
+			acc10 = vaddq_f32(acc10, h4_0);
+			acc10 = vaddq_f32(acc10, h4_0_2);
+			vst1q_f32(sum + 160 + pass, acc10);
+			const float32x4_t w3_1 = vmulq_f32(w2_1, x1);
+			const float32x4_t w3_1_2 = vmulq_f32(w2_1_2, x1_2);
+			const float32x4_t t8 = vmulq_f32(vdupq_n_f32(4.0f), w3_1);
+			const float32x4_t t8_2 = vmulq_f32(vdupq_n_f32(4.0f), w3_1_2);
+			const float32x4_t t9 = vfmaq_f32(t8, h3_0, y0);
+			const float32x4_t t9_2 = vfmaq_f32(t8_2, h3_0_2, y0_2);
+			const float32x4_t h3_1 = vfmaq_f32(t9, h2_1, x0);
+			const float32x4_t h3_1_2 = vfmaq_f32(t9_2, h2_1_2, x0_2);
+			float32x4_t acc11 = vld1q_f32(sum + 176 + pass);
+			acc11 = vaddq_f32(acc11, h3_1);
+			acc11 = vaddq_f32(acc11, h3_1_2);
+			vst1q_f32(sum + 176 + pass, acc11);
+			const float32x4_t w2_2 = vmulq_f32(w1_2, x1);
+			const float32x4_t w2_2_2 = vmulq_f32(w1_2_2, x1_2);
+			const float32x4_t t10 = vmulq_f32(vdupq_n_f32(6.0f), w2_2);
+			const float32x4_t t10_2 = vmulq_f32(vdupq_n_f32(6.0f), w2_2_2);
+			const float32x4_t t11 = vfmaq_f32(t10, h2_1, y0);
+			const float32x4_t t11_2 = vfmaq_f32(t10_2, h2_1_2, y0_2);
+			const float32x4_t h2_2 = vfmaq_f32(t11, h1_2, x0);
+			const float32x4_t h2_2_2 = vfmaq_f32(t11_2, h1_2_2, x0_2);
+			float32x4_t acc12 = vld1q_f32(sum + 192 + pass);
+			acc12 = vaddq_f32(acc12, h2_2);
+			acc12 = vaddq_f32(acc12, h2_2_2);
+			vst1q_f32(sum + 192 + pass, acc12);
+			const float32x4_t w1_3 = vmulq_f32(w0_3, x1);
+			const float32x4_t w1_3_2 = vmulq_f32(w0_3_2, x1_2);
+			const float32x4_t t12 = vmulq_f32(vdupq_n_f32(4.0f), w1_3);
+			const float32x4_t t12_2 = vmulq_f32(vdupq_n_f32(4.0f), w1_3_2);
+			const float32x4_t t13 = vfmaq_f32(t12, h1_2, y0);
+			const float32x4_t t13_2 = vfmaq_f32(t12_2, h1_2_2, y0_2);
+			const float32x4_t h1_3 = vfmaq_f32(t13, h0_3, x0);
+			const float32x4_t h1_3_2 = vfmaq_f32(t13_2, h0_3_2, x0_2);
+			float32x4_t acc13 = vld1q_f32(sum + 208 + pass);
+			acc13 = vaddq_f32(acc13, h1_3);
+			acc13 = vaddq_f32(acc13, h1_3_2);
+			vst1q_f32(sum + 208 + pass, acc13);
+			const float32x4_t w0_4 = vmulq_f32(w0_3, y1);
+			const float32x4_t w0_4_2 = vmulq_f32(w0_3_2, y1_2);
+			const float32x4_t h0_4 = vfmaq_f32(w0_4, h0_3, y0);
+			const float32x4_t h0_4_2 = vfmaq_f32(w0_4_2, h0_3_2, y0_2);
+			float32x4_t acc14 = vld1q_f32(sum + 224 + pass);
+			acc14 = vaddq_f32(acc14, h0_4);
+			acc14 = vaddq_f32(acc14, h0_4_2);
+			vst1q_f32(sum + 224 + pass, acc14);
+			float32x4_t acc15 = vld1q_f32(sum + 240 + pass);
+			const float32x4_t t14 = vfmaq_f32(acc15, w4_0, x1);
+			acc15 = vfmaq_f32(t14, h4_0, x0);
+			const float32x4_t t14_2 = vfmaq_f32(acc15, w4_0_2, x1_2);
+			acc15 = vfmaq_f32(t14_2, h4_0_2, x0_2);
+			vst1q_f32(sum + 240 + pass, acc15);
+			float32x4_t acc16 = vld1q_f32(sum + 256 + pass);
+			const float32x4_t t15 = vfmaq_f32(acc16, h4_0, y0);
+			acc16 = vfmaq_f32(t15, h3_1, x0);
+			const float32x4_t t15_2 = vfmaq_f32(acc16, h4_0_2, y0_2);
+			acc16 = vfmaq_f32(t15_2, h3_1_2, x0_2);
+			vst1q_f32(sum + 256 + pass, acc16);
+			float32x4_t acc17 = vld1q_f32(sum + 272 + pass);
+			const float32x4_t t16 = vfmaq_f32(acc17, h3_1, y0);
+			acc17 = vfmaq_f32(t16, h2_2, x0);
+			const float32x4_t t16_2 = vfmaq_f32(acc17, h3_1_2, y0_2);
+			acc17 = vfmaq_f32(t16_2, h2_2_2, x0_2);
+			vst1q_f32(sum + 272 + pass, acc17);
+			float32x4_t acc18 = vld1q_f32(sum + 288 + pass);
+			const float32x4_t t17 = vfmaq_f32(acc18, h2_2, y0);
+			acc18 = vfmaq_f32(t17, h1_3, x0);
+			const float32x4_t t17_2 = vfmaq_f32(acc18, h2_2_2, y0_2);
+			acc18 = vfmaq_f32(t17_2, h1_3_2, x0_2);
+			vst1q_f32(sum + 288 + pass, acc18);
+			float32x4_t acc19 = vld1q_f32(sum + 304 + pass);
+			const float32x4_t t18 = vfmaq_f32(acc19, h1_3, y0);
+			acc19 = vfmaq_f32(t18, h0_4, x0);
+			const float32x4_t t18_2 = vfmaq_f32(acc19, h1_3_2, y0_2);
+			acc19 = vfmaq_f32(t18_2, h0_4_2, x0_2);
+			vst1q_f32(sum + 304 + pass, acc19);
+			float32x4_t acc20 = vld1q_f32(sum + 320 + pass);
+			const float32x4_t t19 = vfmaq_f32(acc20, w0_4, y1);
+			acc20 = vfmaq_f32(t19, h0_4, y0);
+			const float32x4_t t19_2 = vfmaq_f32(acc20, w0_4_2, y1_2);
+			acc20 = vfmaq_f32(t19_2, h0_4_2, y0_2);
+			vst1q_f32(sum + 320 + pass, acc20);
+			float32x4_t acc21 = vld1q_f32(sum + 336 + pass);
+			acc21 = vfmaq_f32(acc21, w3_1, x1);
+			acc21 = vfmaq_f32(acc21, w3_1_2, x1_2);
+			vst1q_f32(sum + 336 + pass, acc21);
+			float32x4_t acc22 = vld1q_f32(sum + 352 + pass);
+			acc22 = vfmaq_f32(acc22, w2_2, x1);
+			acc22 = vfmaq_f32(acc22, w2_2_2, x1_2);
+			vst1q_f32(sum + 352 + pass, acc22);
+			float32x4_t acc23 = vld1q_f32(sum + 368 + pass);
+			acc23 = vfmaq_f32(acc23, w1_3, x1);
+			acc23 = vfmaq_f32(acc23, w1_3_2, x1_2);
+			vst1q_f32(sum + 368 + pass, acc23);
+			float32x4_t acc24 = vld1q_f32(sum + 384 + pass);
+			acc24 = vfmaq_f32(acc24, w0_4, x1);
+			acc24 = vfmaq_f32(acc24, w0_4_2, x1_2);
+			vst1q_f32(sum + 384 + pass, acc24);
+		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
 			const size_t rest = count - i;
 			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
 			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
 			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
 			const float32x4_t y1 = vld1q_f32(at_y1);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
 			const float32x4_t s = vsubq_f32(t0, t1);
+			float32x4_t acc0 = vld1q_f32(sum + pass);
 			acc0 = vaddq_f32(acc0, s);
+			vst1q_f32(sum + pass, acc0);
 			const float32x4_t w1_0 = vmulq_f32(s, x1);
 			const float32x4_t h1_0 = vfmaq_f32(w1_0, s, x0);
+			float32x4_t acc1 = vld1q_f32(sum + 16 + pass);
 			acc1 = vaddq_f32(acc1, h1_0);
+			vst1q_f32(sum + 16 + pass, acc1);
 			const float32x4_t w0_1 = vmulq_f32(s, y1);
 			const float32x4_t h0_1 = vfmaq_f32(w0_1, s, y0);
+			float32x4_t acc2 = vld1q_f32(sum + 32 + pass);
 			acc2 = vaddq_f32(acc2, h0_1);
+			vst1q_f32(sum + 32 + pass, acc2);
 			const float32x4_t w2_0 = vmulq_f32(w1_0, x1);
 			const float32x4_t h2_0 = vfmaq_f32(w2_0, h1_0, x0);
+			float32x4_t acc3 = vld1q_f32(sum + 48 + pass);
 			acc3 = vaddq_f32(acc3, h2_0);
+			vst1q_f32(sum + 48 + pass, acc3);
 			const float32x4_t w1_1 = vmulq_f32(w0_1, x1);
 			const float32x4_t t2 = vmulq_f32(vdupq_n_f32(2.0f), w1_1);
 			const float32x4_t t3 = vfmaq_f32(t2, h1_0, y0);
 			const float32x4_t h1_1 = vfmaq_f32(t3, h0_1, x0);
+			float32x4_t acc4 = vld1q_f32(sum + 64 + pass);
 			acc4 = vaddq_f32(acc4, h1_1);
+			vst1q_f32(sum + 64 + pass, acc4);
 			const float32x4_t w0_2 = vmulq_f32(w0_1, y1);
 			const float32x4_t h0_2 = vfmaq_f32(w0_2, h0_1, y0);
+			float32x4_t acc5 = vld1q_f32(sum + 80 + pass);
 			acc5 = vaddq_f32(acc5, h0_2);
+			vst1q_f32(sum + 80 + pass, acc5);
 			const float32x4_t w3_0 = vmulq_f32(w2_0, x1);
 			const float32x4_t h3_0 = vfmaq_f32(w3_0, h2_0, x0);
+			float32x4_t acc6 = vld1q_f32(sum + 96 + pass);
 			acc6 = vaddq_f32(acc6, h3_0);
+			vst1q_f32(sum + 96 + pass, acc6);
 			const float32x4_t w2_1 = vmulq_f32(w1_1, x1);
 			const float32x4_t t4 = vmulq_f32(vdupq_n_f32(3.0f), w2_1);
 			const float32x4_t t5 = vfmaq_f32(t4, h2_0, y0);
 			const float32x4_t h2_1 = vfmaq_f32(t5, h1_1, x0);
+			float32x4_t acc7 = vld1q_f32(sum + 112 + pass);
 			acc7 = vaddq_f32(acc7, h2_1);
+			vst1q_f32(sum + 112 + pass, acc7);
 			const float32x4_t w1_2 = vmulq_f32(w0_2, x1);
 			const float32x4_t t6 = vmulq_f32(vdupq_n_f32(3.0f), w1_2);
 			const float32x4_t t7 = vfmaq_f32(t6, h1_1, y0);
 			const float32x4_t h1_2 = vfmaq_f32(t7, h0_2, x0);
+			float32x4_t acc8 = vld1q_f32(sum + 128 + pass);
 			acc8 = vaddq_f32(acc8, h1_2);
+			vst1q_f32(sum + 128 + pass, acc8);
 			const float32x4_t w0_3 = vmulq_f32(w0_2, y1);
 			const float32x4_t h0_3 = vfmaq_f32(w0_3, h0_2, y0);
+			float32x4_t acc9 = vld1q_f32(sum + 144 + pass);
 			acc9 = vaddq_f32(acc9, h0_3);
+			vst1q_f32(sum + 144 + pass, acc9);
 			const float32x4_t w4_0 = vmulq_f32(w3_0, x1);
 			const float32x4_t h4_0 = vfmaq_f32(w4_0, h3_0, x0);
+			float32x4_t acc10 = vld1q_f32(sum + 160 + pass);
 			acc10 = vaddq_f32(acc10, h4_0);
+			vst1q_f32(sum + 160 + pass, acc10);
 			const float32x4_t w3_1 = vmulq_f32(w2_1, x1);
 			const float32x4_t t8 = vmulq_f32(vdupq_n_f32(4.0f), w3_1);
 			const float32x4_t t9 = vfmaq_f32(t8, h3_0, y0);
 			const float32x4_t h3_1 = vfmaq_f32(t9, h2_1, x0);
+			float32x4_t acc11 = vld1q_f32(sum + 176 + pass);
 			acc11 = vaddq_f32(acc11, h3_1);
+			vst1q_f32(sum + 176 + pass, acc11);
 			const float32x4_t w2_2 = vmulq_f32(w1_2, x1);
 			const float32x4_t t10 = vmulq_f32(vdupq_n_f32(6.0f), w2_2);
 			const float32x4_t t11 = vfmaq_f32(t10, h2_1, y0);
 			const float32x4_t h2_2 = vfmaq_f32(t11, h1_2, x0);
+			float32x4_t acc12 = vld1q_f32(sum + 192 + pass);
 			acc12 = vaddq_f32(acc12, h2_2);
+			vst1q_f32(sum + 192 + pass, acc12);
 			const float32x4_t w1_3 = vmulq_f32(w0_3, x1);
 			const float32x4_t t12 = vmulq_f32(vdupq_n_f32(4.0f), w1_3);
 			const float32x4_t t13 = vfmaq_f32(t12, h1_2, y0);
 			const float32x4_t h1_3 = vfmaq_f32(t13, h0_3, x0);
+			float32x4_t acc13 = vld1q_f32(sum + 208 + pass);
 			acc13 = vaddq_f32(acc13, h1_3);
+			vst1q_f32(sum + 208 + pass, acc13);
 			const float32x4_t w0_4 = vmulq_f32(w0_3, y1);
 			const float32x4_t h0_4 = vfmaq_f32(w0_4, h0_3, y0);
+			float32x4_t acc14 = vld1q_f32(sum + 224 + pass);
 			acc14 = vaddq_f32(acc14, h0_4);
+			vst1q_f32(sum + 224 + pass, acc14);
+			float32x4_t acc15 = vld1q_f32(sum + 240 + pass);
 			const float32x4_t t14 = vfmaq_f32(acc15, w4_0, x1);
 			acc15 = vfmaq_f32(t14, h4_0, x0);
+			vst1q_f32(sum + 240 + pass, acc15);
+			float32x4_t acc16 = vld1q_f32(sum + 256 + pass);
 			const float32x4_t t15 = vfmaq_f32(acc16, h4_0, y0);
 			acc16 = vfmaq_f32(t15, h3_1, x0);
+			vst1q_f32(sum + 256 + pass, acc16);
+			float32x4_t acc17 = vld1q_f32(sum + 272 + pass);
 			const float32x4_t t16 = vfmaq_f32(acc17, h3_1, y0);
 			acc17 = vfmaq_f32(t16, h2_2, x0);
+			vst1q_f32(sum + 272 + pass, acc17);
+			float32x4_t acc18 = vld1q_f32(sum + 288 + pass);
 			const float32x4_t t17 = vfmaq_f32(acc18, h2_2, y0);
 			acc18 = vfmaq_f32(t17, h1_3, x0);
+			vst1q_f32(sum + 288 + pass, acc18);
+			float32x4_t acc19 = vld1q_f32(sum + 304 + pass);
 			const float32x4_t t18 = vfmaq_f32(acc19, h1_3, y0);
 			acc19 = vfmaq_f32(t18, h0_4, x0);
+			vst1q_f32(sum + 304 + pass, acc19);
+			float32x4_t acc20 = vld1q_f32(sum + 320 + pass);
 			const float32x4_t t19 = vfmaq_f32(acc20, w0_4, y1);
 			acc20 = vfmaq_f32(t19, h0_4, y0);
+			vst1q_f32(sum + 320 + pass, acc20);
+			float32x4_t acc21 = vld1q_f32(sum + 336 + pass);
 			acc21 = vfmaq_f32(acc21, w3_1, x1);
+			vst1q_f32(sum + 336 + pass, acc21);
+			float32x4_t acc22 = vld1q_f32(sum + 352 + pass);
 			acc22 = vfmaq_f32(acc22, w2_2, x1);
+			vst1q_f32(sum + 352 + pass, acc22);
+			float32x4_t acc23 = vld1q_f32(sum + 368 + pass);
 			acc23 = vfmaq_f32(acc23, w1_3, x1);
+			vst1q_f32(sum + 368 + pass, acc23);
+			float32x4_t acc24 = vld1q_f32(sum + 384 + pass);
 			acc24 = vfmaq_f32(acc24, w0_4, x1);
+			vst1q_f32(sum + 384 + pass, acc24);
 		}
-		vst1q_f32(sum + pass, acc0);
-		vst1q_f32(sum + 16 + pass, acc1);
-		vst1q_f32(sum + 32 + pass, acc2);
-		vst1q_f32(sum + 48 + pass, acc3);
-		vst1q_f32(sum + 64 + pass, acc4);
-		vst1q_f32(sum + 80 + pass, acc5);
-		vst1q_f32(sum + 96 + pass, acc6);
-		vst1q_f32(sum + 112 + pass, acc7);
-		vst1q_f32(sum + 128 + pass, acc8);
-		vst1q_f32(sum + 144 + pass, acc9);
-		vst1q_f32(sum + 160 + pass, acc10);
-		vst1q_f32(sum + 176 + pass, acc11);
-		vst1q_f32(sum + 192 + pass, acc12);
-		vst1q_f32(sum + 208 + pass, acc13);
-		vst1q_f32(sum + 224 + pass, acc14);
-		vst1q_f32(sum + 240 + pass, acc15);
-		vst1q_f32(sum + 256 + pass, acc16);
-		vst1q_f32(sum + 272 + pass, acc17);
-		vst1q_f32(sum + 288 + pass, acc18);
-		vst1q_f32(sum + 304 + pass, acc19);
-		vst1q_f32(sum + 320 + pass, acc20);
-		vst1q_f32(sum + 336 + pass, acc21);
-		vst1q_f32(sum + 352 + pass, acc22);
-		vst1q_f32(sum + 368 + pass, acc23);
-		vst1q_f32(sum + 384 + pass, acc24);
 	}
 }
 
 /* all moments of x^m y^n, m + n <= 6; scheme recurrence.
  * Cost per item: 81 mul or fma, 22 add; 33 accumulators, 18 values alive, depth 15. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_6f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
-		for (size_t i = pass; i < count; i += 32) {
-			const size_t rest = count - i;
-			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
-			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
-			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const float32x4_t y1 = vld1q_f32(at_y1);
-			const size_t rest_2 = count - i > 16 ? count - i - 16 : 0;
-			float pad_2[4][4];
-			const float *at_x0_2 = rest_2 < 4
-				? ew_ring_padf(pad_2[0], x + i + 16, rest_2, 4) : x + i + 16;
-			const float32x4_t x0_2 = vld1q_f32(at_x0_2);
-			const float *at_y0_2 = rest_2 < 4
-				? ew_ring_padf(pad_2[1], y + i + 16, rest_2, 4) : y + i + 16;
-			const float32x4_t y0_2 = vld1q_f32(at_y0_2);
-			const float *at_x1_2 = rest_2 < 4
-				? ew_ring_padf(pad_2[2], x + i + 17, rest_2, 4) : x + i + 17;
-			const float32x4_t x1_2 = vld1q_f32(at_x1_2);
-			const float *at_y1_2 = rest_2 < 4
-				? ew_ring_padf(pad_2[3], y + i + 17, rest_2, 4) : y + i + 17;
-			const float32x4_t y1_2 = vld1q_f32(at_y1_2);
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
+		size_t i = pass;
+		for (; i + step + 3 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t x0_2 = vld1q_f32(x + i + step);
+			const float32x4_t y0_2 = vld1q_f32(y + i + step);
+			const float32x4_t x1_2 = vld1q_f32(x + i + step + reach);
+			const float32x4_t y1_2 = vld1q_f32(y + i + step + reach);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t0_2 = vmulq_f32(x0_2, y1_2);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -827,45 +1158,211 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_6f_neon(
 			acc32 = vfmaq_f32(acc32, w0_5_2, x1_2);
 			vst1q_f32(sum + 512 + pass, acc32);
 		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
+			const size_t rest = count - i;
+			float pad[4][4];
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
+			const float32x4_t x0 = vld1q_f32(at_x0);
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
+			const float32x4_t y0 = vld1q_f32(at_y0);
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
+			const float32x4_t x1 = vld1q_f32(at_x1);
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
+			const float32x4_t y1 = vld1q_f32(at_y1);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			float32x4_t acc0 = vld1q_f32(sum + pass);
+			acc0 = vaddq_f32(acc0, s);
+			vst1q_f32(sum + pass, acc0);
+			const float32x4_t w1_0 = vmulq_f32(s, x1);
+			const float32x4_t h1_0 = vfmaq_f32(w1_0, s, x0);
+			float32x4_t acc1 = vld1q_f32(sum + 16 + pass);
+			acc1 = vaddq_f32(acc1, h1_0);
+			vst1q_f32(sum + 16 + pass, acc1);
+			const float32x4_t w0_1 = vmulq_f32(s, y1);
+			const float32x4_t h0_1 = vfmaq_f32(w0_1, s, y0);
+			float32x4_t acc2 = vld1q_f32(sum + 32 + pass);
+			acc2 = vaddq_f32(acc2, h0_1);
+			vst1q_f32(sum + 32 + pass, acc2);
+			const float32x4_t w2_0 = vmulq_f32(w1_0, x1);
+			const float32x4_t h2_0 = vfmaq_f32(w2_0, h1_0, x0);
+			float32x4_t acc3 = vld1q_f32(sum + 48 + pass);
+			acc3 = vaddq_f32(acc3, h2_0);
+			vst1q_f32(sum + 48 + pass, acc3);
+			const float32x4_t w1_1 = vmulq_f32(w0_1, x1);
+			const float32x4_t t2 = vmulq_f32(vdupq_n_f32(2.0f), w1_1);
+			const float32x4_t t3 = vfmaq_f32(t2, h1_0, y0);
+			const float32x4_t h1_1 = vfmaq_f32(t3, h0_1, x0);
+			float32x4_t acc4 = vld1q_f32(sum + 64 + pass);
+			acc4 = vaddq_f32(acc4, h1_1);
+			vst1q_f32(sum + 64 + pass, acc4);
+			const float32x4_t w0_2 = vmulq_f32(w0_1, y1);
+			const float32x4_t h0_2 = vfmaq_f32(w0_2, h0_1, y0);
+			float32x4_t acc5 = vld1q_f32(sum + 80 + pass);
+			acc5 = vaddq_f32(acc5, h0_2);
+			vst1q_f32(sum + 80 + pass, acc5);
+			const float32x4_t w3_0 = vmulq_f32(w2_0, x1);
+			const float32x4_t h3_0 = vfmaq_f32(w3_0, h2_0, x0);
+			float32x4_t acc6 = vld1q_f32(sum + 96 + pass);
+			acc6 = vaddq_f32(acc6, h3_0);
+			vst1q_f32(sum + 96 + pass, acc6);
+			const float32x4_t w2_1 = vmulq_f32(w1_1, x1);
+			const float32x4_t t4 = vmulq_f32(vdupq_n_f32(3.0f), w2_1);
+			const float32x4_t t5 = vfmaq_f32(t4, h2_0, y0);
+			const float32x4_t h2_1 = vfmaq_f32(t5, h1_1, x0);
+			float32x4_t acc7 = vld1q_f32(sum + 112 + pass);
+			acc7 = vaddq_f32(acc7, h2_1);
+			vst1q_f32(sum + 112 + pass, acc7);
+			const float32x4_t w1_2 = vmulq_f32(w0_2, x1);
+			const float32x4_t t6 = vmulq_f32(vdupq_n_f32(3.0f), w1_2);
+			const float32x4_t t7 = vfmaq_f32(t6, h1_1, y0);
+			const float32x4_t h1_2 = vfmaq_f32(t7, h0_2, x0);
+			float32x4_t acc8 = vld1q_f32(sum + 128 + pass);
+			acc8 = vaddq_f32(acc8, h1_2);
+			vst1q_f32(sum + 128 + pass, acc8);
+			const float32x4_t w0_3 = vmulq_f32(w0_2, y1);
+			const float32x4_t h0_3 = vfmaq_f32(w0_3, h0_2, y0);
+			float32x4_t acc9 = vld1q_f32(sum + 144 + pass);
+			acc9 = vaddq_f32(acc9, h0_3);
+			vst1q_f32(sum + 144 + pass, acc9);
+			const float32x4_t w4_0 = vmulq_f32(w3_0, x1);
+			const float32x4_t h4_0 = vfmaq_f32(w4_0, h3_0, x0);
+			float32x4_t acc10 = vld1q_f32(sum + 160 + pass);
+			acc10 = vaddq_f32(acc10, h4_0);
+			vst1q_f32(sum + 160 + pass, acc10);
+			const float32x4_t w3_1 = vmulq_f32(w2_1, x1);
+			const float32x4_t t8 = vmulq_f32(vdupq_n_f32(4.0f), w3_1);
+			const float32x4_t t9 = vfmaq_f32(t8, h3_0, y0);
+			const float32x4_t h3_1 = vfmaq_f32(t9, h2_1, x0);
+			float32x4_t acc11 = vld1q_f32(sum + 176 + pass);
+			acc11 = vaddq_f32(acc11, h3_1);
+			vst1q_f32(sum + 176 + pass, acc11);
+			const float32x4_t w2_2 = vmulq_f32(w1_2, x1);
+			const float32x4_t t10 = vmulq_f32(vdupq_n_f32(6.0f), w2_2);
+			const float32x4_t t11 = vfmaq_f32(t10, h2_1, y0);
+			const float32x4_t h2_2 = vfmaq_f32(t11, h1_2, x0);
+			float32x4_t acc12 = vld1q_f32(sum + 192 + pass);
+			acc12 = vaddq_f32(acc12, h2_2);
+			vst1q_f32(sum + 192 + pass, acc12);
+			const float32x4_t w1_3 = vmulq_f32(w0_3, x1);
+			const float32x4_t t12 = vmulq_f32(vdupq_n_f32(4.0f), w1_3);
+			const float32x4_t t13 = vfmaq_f32(t12, h1_2, y0);
+			const float32x4_t h1_3 = vfmaq_f32(t13, h0_3, x0);
+			float32x4_t acc13 = vld1q_f32(sum + 208 + pass);
+			acc13 = vaddq_f32(acc13, h1_3);
+			vst1q_f32(sum + 208 + pass, acc13);
+			const float32x4_t w0_4 = vmulq_f32(w0_3, y1);
+			const float32x4_t h0_4 = vfmaq_f32(w0_4, h0_3, y0);
+			float32x4_t acc14 = vld1q_f32(sum + 224 + pass);
+			acc14 = vaddq_f32(acc14, h0_4);
+			vst1q_f32(sum + 224 + pass, acc14);
+			const float32x4_t w5_0 = vmulq_f32(w4_0, x1);
+			const float32x4_t h5_0 = vfmaq_f32(w5_0, h4_0, x0);
+			float32x4_t acc15 = vld1q_f32(sum + 240 + pass);
+			acc15 = vaddq_f32(acc15, h5_0);
+			vst1q_f32(sum + 240 + pass, acc15);
+			const float32x4_t w4_1 = vmulq_f32(w3_1, x1);
+			const float32x4_t t14 = vmulq_f32(vdupq_n_f32(5.0f), w4_1);
+			const float32x4_t t15 = vfmaq_f32(t14, h4_0, y0);
+			const float32x4_t h4_1 = vfmaq_f32(t15, h3_1, x0);
+			float32x4_t acc16 = vld1q_f32(sum + 256 + pass);
+			acc16 = vaddq_f32(acc16, h4_1);
+			vst1q_f32(sum + 256 + pass, acc16);
+			const float32x4_t w3_2 = vmulq_f32(w2_2, x1);
+			const float32x4_t t16 = vmulq_f32(vdupq_n_f32(10.0f), w3_2);
+			const float32x4_t t17 = vfmaq_f32(t16, h3_1, y0);
+			const float32x4_t h3_2 = vfmaq_f32(t17, h2_2, x0);
+			float32x4_t acc17 = vld1q_f32(sum + 272 + pass);
+			acc17 = vaddq_f32(acc17, h3_2);
+			vst1q_f32(sum + 272 + pass, acc17);
+			const float32x4_t w2_3 = vmulq_f32(w1_3, x1);
+			const float32x4_t t18 = vmulq_f32(vdupq_n_f32(10.0f), w2_3);
+			const float32x4_t t19 = vfmaq_f32(t18, h2_2, y0);
+			const float32x4_t h2_3 = vfmaq_f32(t19, h1_3, x0);
+			float32x4_t acc18 = vld1q_f32(sum + 288 + pass);
+			acc18 = vaddq_f32(acc18, h2_3);
+			vst1q_f32(sum + 288 + pass, acc18);
+			const float32x4_t w1_4 = vmulq_f32(w0_4, x1);
+			const float32x4_t t20 = vmulq_f32(vdupq_n_f32(5.0f), w1_4);
+			const float32x4_t t21 = vfmaq_f32(t20, h1_3, y0);
+			const float32x4_t h1_4 = vfmaq_f32(t21, h0_4, x0);
+			float32x4_t acc19 = vld1q_f32(sum + 304 + pass);
+			acc19 = vaddq_f32(acc19, h1_4);
+			vst1q_f32(sum + 304 + pass, acc19);
+			const float32x4_t w0_5 = vmulq_f32(w0_4, y1);
+			const float32x4_t h0_5 = vfmaq_f32(w0_5, h0_4, y0);
+			float32x4_t acc20 = vld1q_f32(sum + 320 + pass);
+			acc20 = vaddq_f32(acc20, h0_5);
+			vst1q_f32(sum + 320 + pass, acc20);
+			float32x4_t acc21 = vld1q_f32(sum + 336 + pass);
+			const float32x4_t t22 = vfmaq_f32(acc21, w5_0, x1);
+			acc21 = vfmaq_f32(t22, h5_0, x0);
+			vst1q_f32(sum + 336 + pass, acc21);
+			float32x4_t acc22 = vld1q_f32(sum + 352 + pass);
+			const float32x4_t t23 = vfmaq_f32(acc22, h5_0, y0);
+			acc22 = vfmaq_f32(t23, h4_1, x0);
+			vst1q_f32(sum + 352 + pass, acc22);
+			float32x4_t acc23 = vld1q_f32(sum + 368 + pass);
+			const float32x4_t t24 = vfmaq_f32(acc23, h4_1, y0);
+			acc23 = vfmaq_f32(t24, h3_2, x0);
+			vst1q_f32(sum + 368 + pass, acc23);
+			float32x4_t acc24 = vld1q_f32(sum + 384 + pass);
+			const float32x4_t t25 = vfmaq_f32(acc24, h3_2, y0);
+			acc24 = vfmaq_f32(t25, h2_3, x0);
+			vst1q_f32(sum + 384 + pass, acc24);
+			float32x4_t acc25 = vld1q_f32(sum + 400 + pass);
+			const float32x4_t t26 = vfmaq_f32(acc25, h2_3, y0);
+			acc25 = vfmaq_f32(t26, h1_4, x0);
+			vst1q_f32(sum + 400 + pass, acc25);
+			float32x4_t acc26 = vld1q_f32(sum + 416 + pass);
+			const float32x4_t t27 = vfmaq_f32(acc26, h1_4, y0);
+			acc26 = vfmaq_f32(t27, h0_5, x0);
+			vst1q_f32(sum + 416 + pass, acc26);
+			float32x4_t acc27 = vld1q_f32(sum + 432 + pass);
+			const float32x4_t t28 = vfmaq_f32(acc27, w0_5, y1);
+			acc27 = vfmaq_f32(t28, h0_5, y0);
+			vst1q_f32(sum + 432 + pass, acc27);
+			float32x4_t acc28 = vld1q_f32(sum + 448 + pass);
+			acc28 = vfmaq_f32(acc28, w4_1, x1);
+			vst1q_f32(sum + 448 + pass, acc28);
+			float32x4_t acc29 = vld1q_f32(sum + 464 + pass);
+			acc29 = vfmaq_f32(acc29, w3_2, x1);
+			vst1q_f32(sum + 464 + pass, acc29);
+			float32x4_t acc30 = vld1q_f32(sum + 480 + pass);
+			acc30 = vfmaq_f32(acc30, w2_3, x1);
+			vst1q_f32(sum + 480 + pass, acc30);
+			float32x4_t acc31 = vld1q_f32(sum + 496 + pass);
+			acc31 = vfmaq_f32(acc31, w1_4, x1);
+			vst1q_f32(sum + 496 + pass, acc31);
+			float32x4_t acc32 = vld1q_f32(sum + 512 + pass);
+			acc32 = vfmaq_f32(acc32, w0_5, x1);
+			vst1q_f32(sum + 512 + pass, acc32);
+		}
 	}
 }
 
 /* all moments of x^m y^n, m + n <= 7; scheme recurrence.
  * Cost per item: 108 mul or fma, 29 add; 42 accumulators, 20 values alive, depth 17. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_7f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
-		for (size_t i = pass; i < count; i += 32) {
-			const size_t rest = count - i;
-			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
-			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
-			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const float32x4_t y1 = vld1q_f32(at_y1);
-			const size_t rest_2 = count - i > 16 ? count - i - 16 : 0;
-			float pad_2[4][4];
-			const float *at_x0_2 = rest_2 < 4
-				? ew_ring_padf(pad_2[0], x + i + 16, rest_2, 4) : x + i + 16;
-			const float32x4_t x0_2 = vld1q_f32(at_x0_2);
-			const float *at_y0_2 = rest_2 < 4
-				? ew_ring_padf(pad_2[1], y + i + 16, rest_2, 4) : y + i + 16;
-			const float32x4_t y0_2 = vld1q_f32(at_y0_2);
-			const float *at_x1_2 = rest_2 < 4
-				? ew_ring_padf(pad_2[2], x + i + 17, rest_2, 4) : x + i + 17;
-			const float32x4_t x1_2 = vld1q_f32(at_x1_2);
-			const float *at_y1_2 = rest_2 < 4
-				? ew_ring_padf(pad_2[3], y + i + 17, rest_2, 4) : y + i + 17;
-			const float32x4_t y1_2 = vld1q_f32(at_y1_2);
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
+		size_t i = pass;
+		for (; i + step + 3 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t x0_2 = vld1q_f32(x + i + step);
+			const float32x4_t y0_2 = vld1q_f32(y + i + step);
+			const float32x4_t x1_2 = vld1q_f32(x + i + step + reach);
+			const float32x4_t y1_2 = vld1q_f32(y + i + step + reach);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t0_2 = vmulq_f32(x0_2, y1_2);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -1225,45 +1722,263 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_7f_neon(
 			acc41 = vfmaq_f32(acc41, w0_6_2, x1_2);
 			vst1q_f32(sum + 656 + pass, acc41);
 		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
+			const size_t rest = count - i;
+			float pad[4][4];
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
+			const float32x4_t x0 = vld1q_f32(at_x0);
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
+			const float32x4_t y0 = vld1q_f32(at_y0);
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
+			const float32x4_t x1 = vld1q_f32(at_x1);
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
+			const float32x4_t y1 = vld1q_f32(at_y1);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			float32x4_t acc0 = vld1q_f32(sum + pass);
+			acc0 = vaddq_f32(acc0, s);
+			vst1q_f32(sum + pass, acc0);
+			const float32x4_t w1_0 = vmulq_f32(s, x1);
+			const float32x4_t h1_0 = vfmaq_f32(w1_0, s, x0);
+			float32x4_t acc1 = vld1q_f32(sum + 16 + pass);
+			acc1 = vaddq_f32(acc1, h1_0);
+			vst1q_f32(sum + 16 + pass, acc1);
+			const float32x4_t w0_1 = vmulq_f32(s, y1);
+			const float32x4_t h0_1 = vfmaq_f32(w0_1, s, y0);
+			float32x4_t acc2 = vld1q_f32(sum + 32 + pass);
+			acc2 = vaddq_f32(acc2, h0_1);
+			vst1q_f32(sum + 32 + pass, acc2);
+			const float32x4_t w2_0 = vmulq_f32(w1_0, x1);
+			const float32x4_t h2_0 = vfmaq_f32(w2_0, h1_0, x0);
+			float32x4_t acc3 = vld1q_f32(sum + 48 + pass);
+			acc3 = vaddq_f32(acc3, h2_0);
+			vst1q_f32(sum + 48 + pass, acc3);
+			const float32x4_t w1_1 = vmulq_f32(w0_1, x1);
+			const float32x4_t t2 = vmulq_f32(vdupq_n_f32(2.0f), w1_1);
+			const float32x4_t t3 = vfmaq_f32(t2, h1_0, y0);
+			const float32x4_t h1_1 = vfmaq_f32(t3, h0_1, x0);
+			float32x4_t acc4 = vld1q_f32(sum + 64 + pass);
+			acc4 = vaddq_f32(acc4, h1_1);
+			vst1q_f32(sum + 64 + pass, acc4);
+			const float32x4_t w0_2 = vmulq_f32(w0_1, y1);
+			const float32x4_t h0_2 = vfmaq_f32(w0_2, h0_1, y0);
+			float32x4_t acc5 = vld1q_f32(sum + 80 + pass);
+			acc5 = vaddq_f32(acc5, h0_2);
+			vst1q_f32(sum + 80 + pass, acc5);
+			const float32x4_t w3_0 = vmulq_f32(w2_0, x1);
+			const float32x4_t h3_0 = vfmaq_f32(w3_0, h2_0, x0);
+			float32x4_t acc6 = vld1q_f32(sum + 96 + pass);
+			acc6 = vaddq_f32(acc6, h3_0);
+			vst1q_f32(sum + 96 + pass, acc6);
+			const float32x4_t w2_1 = vmulq_f32(w1_1, x1);
+			const float32x4_t t4 = vmulq_f32(vdupq_n_f32(3.0f), w2_1);
+			const float32x4_t t5 = vfmaq_f32(t4, h2_0, y0);
+			const float32x4_t h2_1 = vfmaq_f32(t5, h1_1, x0);
+			float32x4_t acc7 = vld1q_f32(sum + 112 + pass);
+			acc7 = vaddq_f32(acc7, h2_1);
+			vst1q_f32(sum + 112 + pass, acc7);
+			const float32x4_t w1_2 = vmulq_f32(w0_2, x1);
+			const float32x4_t t6 = vmulq_f32(vdupq_n_f32(3.0f), w1_2);
+			const float32x4_t t7 = vfmaq_f32(t6, h1_1, y0);
+			const float32x4_t h1_2 = vfmaq_f32(t7, h0_2, x0);
+			float32x4_t acc8 = vld1q_f32(sum + 128 + pass);
+			acc8 = vaddq_f32(acc8, h1_2);
+			vst1q_f32(sum + 128 + pass, acc8);
+			const float32x4_t w0_3 = vmulq_f32(w0_2, y1);
+			const float32x4_t h0_3 = vfmaq_f32(w0_3, h0_2, y0);
+			float32x4_t acc9 = vld1q_f32(sum + 144 + pass);
+			acc9 = vaddq_f32(acc9, h0_3);
+			vst1q_f32(sum + 144 + pass, acc9);
+			const float32x4_t w4_0 = vmulq_f32(w3_0, x1);
+			const float32x4_t h4_0 = vfmaq_f32(w4_0, h3_0, x0);
+			float32x4_t acc10 = vld1q_f32(sum + 160 + pass);
+			acc10 = vaddq_f32(acc10, h4_0);
+			vst1q_f32(sum + 160 + pass, acc10);
+			const float32x4_t w3_1 = vmulq_f32(w2_1, x1);
+			const float32x4_t t8 = vmulq_f32(vdupq_n_f32(4.0f), w3_1);
+			const float32x4_t t9 = vfmaq_f32(t8, h3_0, y0);
+			const float32x4_t h3_1 = vfmaq_f32(t9, h2_1, x0);
+			float32x4_t acc11 = vld1q_f32(sum + 176 + pass);
+			acc11 = vaddq_f32(acc11, h3_1);
+			vst1q_f32(sum + 176 + pass, acc11);
+			const float32x4_t w2_2 = vmulq_f32(w1_2, x1);
+			const float32x4_t t10 = vmulq_f32(vdupq_n_f32(6.0f), w2_2);
+			const float32x4_t t11 = vfmaq_f32(t10, h2_1, y0);
+			const float32x4_t h2_2 = vfmaq_f32(t11, h1_2, x0);
+			float32x4_t acc12 = vld1q_f32(sum + 192 + pass);
+			acc12 = vaddq_f32(acc12, h2_2);
+			vst1q_f32(sum + 192 + pass, acc12);
+			const float32x4_t w1_3 = vmulq_f32(w0_3, x1);
+			const float32x4_t t12 = vmulq_f32(vdupq_n_f32(4.0f), w1_3);
+			const float32x4_t t13 = vfmaq_f32(t12, h1_2, y0);
+			const float32x4_t h1_3 = vfmaq_f32(t13, h0_3, x0);
+			float32x4_t acc13 = vld1q_f32(sum + 208 + pass);
+			acc13 = vaddq_f32(acc13, h1_3);
+			vst1q_f32(sum + 208 + pass, acc13);
+			const float32x4_t w0_4 = vmulq_f32(w0_3, y1);
+			const float32x4_t h0_4 = vfmaq_f32(w0_4, h0_3, y0);
+			float32x4_t acc14 = vld1q_f32(sum + 224 + pass);
+			acc14 = vaddq_f32(acc14, h0_4);
+			vst1q_f32(sum + 224 + pass, acc14);
+			const float32x4_t w5_0 = vmulq_f32(w4_0, x1);
+			const float32x4_t h5_0 = vfmaq_f32(w5_0, h4_0, x0);
+			float32x4_t acc15 = vld1q_f32(sum + 240 + pass);
+			acc15 = vaddq_f32(acc15, h5_0);
+			vst1q_f32(sum + 240 + pass, acc15);
+			const float32x4_t w4_1 = vmulq_f32(w3_1, x1);
+			const float32x4_t t14 = vmulq_f32(vdupq_n_f32(5.0f), w4_1);
+			const float32x4_t t15 = vfmaq_f32(t14, h4_0, y0);
+			const float32x4_t h4_1 = vfmaq_f32(t15, h3_1, x0);
+			float32x4_t acc16 = vld1q_f32(sum + 256 + pass);
+			acc16 = vaddq_f32(acc16, h4_1);
+			vst1q_f32(sum + 256 + pass, acc16);
+			const float32x4_t w3_2 = vmulq_f32(w2_2, x1);
+			const float32x4_t t16 = vmulq_f32(vdupq_n_f32(10.0f), w3_2);
+			const float32x4_t t17 = vfmaq_f32(t16, h3_1, y0);
+			const float32x4_t h3_2 = vfmaq_f32(t17, h2_2, x0);
+			float32x4_t acc17 = vld1q_f32(sum + 272 + pass);
+			acc17 = vaddq_f32(acc17, h3_2);
+			vst1q_f32(sum + 272 + pass, acc17);
+			const float32x4_t w2_3 = vmulq_f32(w1_3, x1);
+			const float32x4_t t18 = vmulq_f32(vdupq_n_f32(10.0f), w2_3);
+			const float32x4_t t19 = vfmaq_f32(t18, h2_2, y0);
+			const float32x4_t h2_3 = vfmaq_f32(t19, h1_3, x0);
+			float32x4_t acc18 = vld1q_f32(sum + 288 + pass);
+			acc18 = vaddq_f32(acc18, h2_3);
+			vst1q_f32(sum + 288 + pass, acc18);
+			const float32x4_t w1_4 = vmulq_f32(w0_4, x1);
+			const float32x4_t t20 = vmulq_f32(vdupq_n_f32(5.0f), w1_4);
+			const float32x4_t t21 = vfmaq_f32(t20, h1_3, y0);
+			const float32x4_t h1_4 = vfmaq_f32(t21, h0_4, x0);
+			float32x4_t acc19 = vld1q_f32(sum + 304 + pass);
+			acc19 = vaddq_f32(acc19, h1_4);
+			vst1q_f32(sum + 304 + pass, acc19);
+			const float32x4_t w0_5 = vmulq_f32(w0_4, y1);
+			const float32x4_t h0_5 = vfmaq_f32(w0_5, h0_4, y0);
+			float32x4_t acc20 = vld1q_f32(sum + 320 + pass);
+			acc20 = vaddq_f32(acc20, h0_5);
+			vst1q_f32(sum + 320 + pass, acc20);
+			const float32x4_t w6_0 = vmulq_f32(w5_0, x1);
+			const float32x4_t h6_0 = vfmaq_f32(w6_0, h5_0, x0);
+			float32x4_t acc21 = vld1q_f32(sum + 336 + pass);
+			acc21 = vaddq_f32(acc21, h6_0);
+			vst1q_f32(sum + 336 + pass, acc21);
+			const float32x4_t w5_1 = vmulq_f32(w4_1, x1);
+			const float32x4_t t22 = vmulq_f32(vdupq_n_f32(6.0f), w5_1);
+			const float32x4_t t23 = vfmaq_f32(t22, h5_0, y0);
+			const float32x4_t h5_1 = vfmaq_f32(t23, h4_1, x0);
+			float32x4_t acc22 = vld1q_f32(sum + 352 + pass);
+			acc22 = vaddq_f32(acc22, h5_1);
+			vst1q_f32(sum + 352 + pass, acc22);
+			const float32x4_t w4_2 = vmulq_f32(w3_2, x1);
+			const float32x4_t t24 = vmulq_f32(vdupq_n_f32(15.0f), w4_2);
+			const float32x4_t t25 = vfmaq_f32(t24, h4_1, y0);
+			const float32x4_t h4_2 = vfmaq_f32(t25, h3_2, x0);
+			float32x4_t acc23 = vld1q_f32(sum + 368 + pass);
+			acc23 = vaddq_f32(acc23, h4_2);
+			vst1q_f32(sum + 368 + pass, acc23);
+			const float32x4_t w3_3 = vmulq_f32(w2_3, x1);
+			const float32x4_t t26 = vmulq_f32(vdupq_n_f32(20.0f), w3_3);
+			const float32x4_t t27 = vfmaq_f32(t26, h3_2, y0);
+			const float32x4_t h3_3 = vfmaq_f32(t27, h2_3, x0);
+			float32x4_t acc24 = vld1q_f32(sum + 384 + pass);
+			acc24 = vaddq_f32(acc24, h3_3);
+			vst1q_f32(sum + 384 + pass, acc24);
+			const float32x4_t w2_4 = vmulq_f32(w1_4, x1);
+			const float32x4_t t28 = vmulq_f32(vdupq_n_f32(15.0f), w2_4);
+			const float32x4_t t29 = vfmaq_f32(t28, h2_3, y0);
+			const float32x4_t h2_4 = vfmaq_f32(t29, h1_4, x0);
+			float32x4_t acc25 = vld1q_f32(sum + 400 + pass);
+			acc25 = vaddq_f32(acc25, h2_4);
+			vst1q_f32(sum + 400 + pass, acc25);
+			const float32x4_t w1_5 = vmulq_f32(w0_5, x1);
+			const float32x4_t t30 = vmulq_f32(vdupq_n_f32(6.0f), w1_5);
+			const float32x4_t t31 = vfmaq_f32(t30, h1_4, y0);
+			const float32x4_t h1_5 = vfmaq_f32(t31, h0_5, x0);
+			float32x4_t acc26 = vld1q_f32(sum + 416 + pass);
+			acc26 = vaddq_f32(acc26, h1_5);
+			vst1q_f32(sum + 416 + pass, acc26);
+			const float32x4_t w0_6 = vmulq_f32(w0_5, y1);
+			const float32x4_t h0_6 = vfmaq_f32(w0_6, h0_5, y0);
+			float32x4_t acc27 = vld1q_f32(sum + 432 + pass);
+			acc27 = vaddq_f32(acc27, h0_6);
+			vst1q_f32(sum + 432 + pass, acc27);
+			float32x4_t acc28 = vld1q_f32(sum + 448 + pass);
+			const float32x4_t t32 = vfmaq_f32(acc28, w6_0, x1);
+			acc28 = vfmaq_f32(t32, h6_0, x0);
+			vst1q_f32(sum + 448 + pass, acc28);
+			float32x4_t acc29 = vld1q_f32(sum + 464 + pass);
+			const float32x4_t t33 = vfmaq_f32(acc29, h6_0, y0);
+			acc29 = vfmaq_f32(t33, h5_1, x0);
+			vst1q_f32(sum + 464 + pass, acc29);
+			float32x4_t acc30 = vld1q_f32(sum + 480 + pass);
+			const float32x4_t t34 = vfmaq_f32(acc30, h5_1, y0);
+			acc30 = vfmaq_f32(t34, h4_2, x0);
+			vst1q_f32(sum + 480 + pass, acc30);
+			float32x4_t acc31 = vld1q_f32(sum + 496 + pass);
+			const float32x4_t t35 = vfmaq_f32(acc31, h4_2, y0);
+			acc31 = vfmaq_f32(t35, h3_3, x0);
+			vst1q_f32(sum + 496 + pass, acc31);
+			float32x4_t acc32 = vld1q_f32(sum + 512 + pass);
+			const float32x4_t t36 = vfmaq_f32(acc32, h3_3, y0);
+			acc32 = vfmaq_f32(t36, h2_4, x0);
+			vst1q_f32(sum + 512 + pass, acc32);
+			float32x4_t acc33 = vld1q_f32(sum + 528 + pass);
+			const float32x4_t t37 = vfmaq_f32(acc33, h2_4, y0);
+			acc33 = vfmaq_f32(t37, h1_5, x0);
+			vst1q_f32(sum + 528 + pass, acc33);
+			float32x4_t acc34 = vld1q_f32(sum + 544 + pass);
+			const float32x4_t t38 = vfmaq_f32(acc34, h1_5, y0);
+			acc34 = vfmaq_f32(t38, h0_6, x0);
+			vst1q_f32(sum + 544 + pass, acc34);
+			float32x4_t acc35 = vld1q_f32(sum + 560 + pass);
+			const float32x4_t t39 = vfmaq_f32(acc35, w0_6, y1);
+			acc35 = vfmaq_f32(t39, h0_6, y0);
+			vst1q_f32(sum + 560 + pass, acc35);
+			float32x4_t acc36 = vld1q_f32(sum + 576 + pass);
+			acc36 = vfmaq_f32(acc36, w5_1, x1);
+			vst1q_f32(sum + 576 + pass, acc36);
+			float32x4_t acc37 = vld1q_f32(sum + 592 + pass);
+			acc37 = vfmaq_f32(acc37, w4_2, x1);
+			vst1q_f32(sum + 592 + pass, acc37);
+			float32x4_t acc38 = vld1q_f32(sum + 608 + pass);
+			acc38 = vfmaq_f32(acc38, w3_3, x1);
+			vst1q_f32(sum + 608 + pass, acc38);
+			float32x4_t acc39 = vld1q_f32(sum + 624 + pass);
+			acc39 = vfmaq_f32(acc39, w2_4, x1);
+			vst1q_f32(sum + 624 + pass, acc39);
+			float32x4_t acc40 = vld1q_f32(sum + 640 + pass);
+			acc40 = vfmaq_f32(acc40, w1_5, x1);
+			vst1q_f32(sum + 640 + pass, acc40);
+			float32x4_t acc41 = vld1q_f32(sum + 656 + pass);
+			acc41 = vfmaq_f32(acc41, w0_6, x1);
+			vst1q_f32(sum + 656 + pass, acc41);
+		}
 	}
 }
 
 /* all moments of x^m y^n, m + n <= 8; scheme recurrence.
  * Cost per item: 139 mul or fma, 37 add; 52 accumulators, 22 values alive, depth 19. */
 EW_ATTRIBUTE_NEON void ew_ring_moments_8f_neon(
-	const float *x, const float *y, float origin, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
 	(void)origin;
-	for (size_t pass = 0; pass < 16 && pass < count; pass += 4) {
-		for (size_t i = pass; i < count; i += 32) {
-			const size_t rest = count - i;
-			float pad[4][4];
-			const float *at_x0 = rest < 4
-				? ew_ring_padf(pad[0], x + i, rest, 4) : x + i;
-			const float32x4_t x0 = vld1q_f32(at_x0);
-			const float *at_y0 = rest < 4
-				? ew_ring_padf(pad[1], y + i, rest, 4) : y + i;
-			const float32x4_t y0 = vld1q_f32(at_y0);
-			const float *at_x1 = rest < 4
-				? ew_ring_padf(pad[2], x + i + 1, rest, 4) : x + i + 1;
-			const float32x4_t x1 = vld1q_f32(at_x1);
-			const float *at_y1 = rest < 4
-				? ew_ring_padf(pad[3], y + i + 1, rest, 4) : y + i + 1;
-			const float32x4_t y1 = vld1q_f32(at_y1);
-			const size_t rest_2 = count - i > 16 ? count - i - 16 : 0;
-			float pad_2[4][4];
-			const float *at_x0_2 = rest_2 < 4
-				? ew_ring_padf(pad_2[0], x + i + 16, rest_2, 4) : x + i + 16;
-			const float32x4_t x0_2 = vld1q_f32(at_x0_2);
-			const float *at_y0_2 = rest_2 < 4
-				? ew_ring_padf(pad_2[1], y + i + 16, rest_2, 4) : y + i + 16;
-			const float32x4_t y0_2 = vld1q_f32(at_y0_2);
-			const float *at_x1_2 = rest_2 < 4
-				? ew_ring_padf(pad_2[2], x + i + 17, rest_2, 4) : x + i + 17;
-			const float32x4_t x1_2 = vld1q_f32(at_x1_2);
-			const float *at_y1_2 = rest_2 < 4
-				? ew_ring_padf(pad_2[3], y + i + 17, rest_2, 4) : y + i + 17;
-			const float32x4_t y1_2 = vld1q_f32(at_y1_2);
+	for (size_t pass = 0; pass < step && pass < count; pass += 4) {
+		size_t i = pass;
+		for (; i + step + 3 < count; i += 2 * step) {
+			EW_HIDE(sum);
+			const float32x4_t x0 = vld1q_f32(x + i);
+			const float32x4_t y0 = vld1q_f32(y + i);
+			const float32x4_t x1 = vld1q_f32(x + i + reach);
+			const float32x4_t y1 = vld1q_f32(y + i + reach);
+			const float32x4_t x0_2 = vld1q_f32(x + i + step);
+			const float32x4_t y0_2 = vld1q_f32(y + i + step);
+			const float32x4_t x1_2 = vld1q_f32(x + i + step + reach);
+			const float32x4_t y1_2 = vld1q_f32(y + i + step + reach);
 			const float32x4_t t0 = vmulq_f32(x0, y1);
 			const float32x4_t t0_2 = vmulq_f32(x0_2, y1_2);
 			const float32x4_t t1 = vmulq_f32(x1, y0);
@@ -1719,6 +2434,300 @@ EW_ATTRIBUTE_NEON void ew_ring_moments_8f_neon(
 			float32x4_t acc51 = vld1q_f32(sum + 816 + pass);
 			acc51 = vfmaq_f32(acc51, w0_7, x1);
 			acc51 = vfmaq_f32(acc51, w0_7_2, x1_2);
+			vst1q_f32(sum + 816 + pass, acc51);
+		}
+		for (; i < count; i += step) {
+			EW_HIDE(sum);
+			const size_t rest = count - i;
+			float pad[4][4];
+			int at = 0;
+			const float *at_x0 = ew_ring_padf(pad[at++], x + i, rest, 4);
+			const float32x4_t x0 = vld1q_f32(at_x0);
+			const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
+			const float32x4_t y0 = vld1q_f32(at_y0);
+			const float *at_x1 = ew_ring_padf(pad[at++], x + i + reach, rest, 4);
+			const float32x4_t x1 = vld1q_f32(at_x1);
+			const float *at_y1 = ew_ring_padf(pad[at++], y + i + reach, rest, 4);
+			const float32x4_t y1 = vld1q_f32(at_y1);
+			const float32x4_t t0 = vmulq_f32(x0, y1);
+			const float32x4_t t1 = vmulq_f32(x1, y0);
+			const float32x4_t s = vsubq_f32(t0, t1);
+			float32x4_t acc0 = vld1q_f32(sum + pass);
+			acc0 = vaddq_f32(acc0, s);
+			vst1q_f32(sum + pass, acc0);
+			const float32x4_t w1_0 = vmulq_f32(s, x1);
+			const float32x4_t h1_0 = vfmaq_f32(w1_0, s, x0);
+			float32x4_t acc1 = vld1q_f32(sum + 16 + pass);
+			acc1 = vaddq_f32(acc1, h1_0);
+			vst1q_f32(sum + 16 + pass, acc1);
+			const float32x4_t w0_1 = vmulq_f32(s, y1);
+			const float32x4_t h0_1 = vfmaq_f32(w0_1, s, y0);
+			float32x4_t acc2 = vld1q_f32(sum + 32 + pass);
+			acc2 = vaddq_f32(acc2, h0_1);
+			vst1q_f32(sum + 32 + pass, acc2);
+			const float32x4_t w2_0 = vmulq_f32(w1_0, x1);
+			const float32x4_t h2_0 = vfmaq_f32(w2_0, h1_0, x0);
+			float32x4_t acc3 = vld1q_f32(sum + 48 + pass);
+			acc3 = vaddq_f32(acc3, h2_0);
+			vst1q_f32(sum + 48 + pass, acc3);
+			const float32x4_t w1_1 = vmulq_f32(w0_1, x1);
+			const float32x4_t t2 = vmulq_f32(vdupq_n_f32(2.0f), w1_1);
+			const float32x4_t t3 = vfmaq_f32(t2, h1_0, y0);
+			const float32x4_t h1_1 = vfmaq_f32(t3, h0_1, x0);
+			float32x4_t acc4 = vld1q_f32(sum + 64 + pass);
+			acc4 = vaddq_f32(acc4, h1_1);
+			vst1q_f32(sum + 64 + pass, acc4);
+			const float32x4_t w0_2 = vmulq_f32(w0_1, y1);
+			const float32x4_t h0_2 = vfmaq_f32(w0_2, h0_1, y0);
+			float32x4_t acc5 = vld1q_f32(sum + 80 + pass);
+			acc5 = vaddq_f32(acc5, h0_2);
+			vst1q_f32(sum + 80 + pass, acc5);
+			const float32x4_t w3_0 = vmulq_f32(w2_0, x1);
+			const float32x4_t h3_0 = vfmaq_f32(w3_0, h2_0, x0);
+			float32x4_t acc6 = vld1q_f32(sum + 96 + pass);
+			acc6 = vaddq_f32(acc6, h3_0);
+			vst1q_f32(sum + 96 + pass, acc6);
+			const float32x4_t w2_1 = vmulq_f32(w1_1, x1);
+			const float32x4_t t4 = vmulq_f32(vdupq_n_f32(3.0f), w2_1);
+			const float32x4_t t5 = vfmaq_f32(t4, h2_0, y0);
+			const float32x4_t h2_1 = vfmaq_f32(t5, h1_1, x0);
+			float32x4_t acc7 = vld1q_f32(sum + 112 + pass);
+			acc7 = vaddq_f32(acc7, h2_1);
+			vst1q_f32(sum + 112 + pass, acc7);
+			const float32x4_t w1_2 = vmulq_f32(w0_2, x1);
+			const float32x4_t t6 = vmulq_f32(vdupq_n_f32(3.0f), w1_2);
+			const float32x4_t t7 = vfmaq_f32(t6, h1_1, y0);
+			const float32x4_t h1_2 = vfmaq_f32(t7, h0_2, x0);
+			float32x4_t acc8 = vld1q_f32(sum + 128 + pass);
+			acc8 = vaddq_f32(acc8, h1_2);
+			vst1q_f32(sum + 128 + pass, acc8);
+			const float32x4_t w0_3 = vmulq_f32(w0_2, y1);
+			const float32x4_t h0_3 = vfmaq_f32(w0_3, h0_2, y0);
+			float32x4_t acc9 = vld1q_f32(sum + 144 + pass);
+			acc9 = vaddq_f32(acc9, h0_3);
+			vst1q_f32(sum + 144 + pass, acc9);
+			const float32x4_t w4_0 = vmulq_f32(w3_0, x1);
+			const float32x4_t h4_0 = vfmaq_f32(w4_0, h3_0, x0);
+			float32x4_t acc10 = vld1q_f32(sum + 160 + pass);
+			acc10 = vaddq_f32(acc10, h4_0);
+			vst1q_f32(sum + 160 + pass, acc10);
+			const float32x4_t w3_1 = vmulq_f32(w2_1, x1);
+			const float32x4_t t8 = vmulq_f32(vdupq_n_f32(4.0f), w3_1);
+			const float32x4_t t9 = vfmaq_f32(t8, h3_0, y0);
+			const float32x4_t h3_1 = vfmaq_f32(t9, h2_1, x0);
+			float32x4_t acc11 = vld1q_f32(sum + 176 + pass);
+			acc11 = vaddq_f32(acc11, h3_1);
+			vst1q_f32(sum + 176 + pass, acc11);
+			const float32x4_t w2_2 = vmulq_f32(w1_2, x1);
+			const float32x4_t t10 = vmulq_f32(vdupq_n_f32(6.0f), w2_2);
+			const float32x4_t t11 = vfmaq_f32(t10, h2_1, y0);
+			const float32x4_t h2_2 = vfmaq_f32(t11, h1_2, x0);
+			float32x4_t acc12 = vld1q_f32(sum + 192 + pass);
+			acc12 = vaddq_f32(acc12, h2_2);
+			vst1q_f32(sum + 192 + pass, acc12);
+			const float32x4_t w1_3 = vmulq_f32(w0_3, x1);
+			const float32x4_t t12 = vmulq_f32(vdupq_n_f32(4.0f), w1_3);
+			const float32x4_t t13 = vfmaq_f32(t12, h1_2, y0);
+			const float32x4_t h1_3 = vfmaq_f32(t13, h0_3, x0);
+			float32x4_t acc13 = vld1q_f32(sum + 208 + pass);
+			acc13 = vaddq_f32(acc13, h1_3);
+			vst1q_f32(sum + 208 + pass, acc13);
+			const float32x4_t w0_4 = vmulq_f32(w0_3, y1);
+			const float32x4_t h0_4 = vfmaq_f32(w0_4, h0_3, y0);
+			float32x4_t acc14 = vld1q_f32(sum + 224 + pass);
+			acc14 = vaddq_f32(acc14, h0_4);
+			vst1q_f32(sum + 224 + pass, acc14);
+			const float32x4_t w5_0 = vmulq_f32(w4_0, x1);
+			const float32x4_t h5_0 = vfmaq_f32(w5_0, h4_0, x0);
+			float32x4_t acc15 = vld1q_f32(sum + 240 + pass);
+			acc15 = vaddq_f32(acc15, h5_0);
+			vst1q_f32(sum + 240 + pass, acc15);
+			const float32x4_t w4_1 = vmulq_f32(w3_1, x1);
+			const float32x4_t t14 = vmulq_f32(vdupq_n_f32(5.0f), w4_1);
+			const float32x4_t t15 = vfmaq_f32(t14, h4_0, y0);
+			const float32x4_t h4_1 = vfmaq_f32(t15, h3_1, x0);
+			float32x4_t acc16 = vld1q_f32(sum + 256 + pass);
+			acc16 = vaddq_f32(acc16, h4_1);
+			vst1q_f32(sum + 256 + pass, acc16);
+			const float32x4_t w3_2 = vmulq_f32(w2_2, x1);
+			const float32x4_t t16 = vmulq_f32(vdupq_n_f32(10.0f), w3_2);
+			const float32x4_t t17 = vfmaq_f32(t16, h3_1, y0);
+			const float32x4_t h3_2 = vfmaq_f32(t17, h2_2, x0);
+			float32x4_t acc17 = vld1q_f32(sum + 272 + pass);
+			acc17 = vaddq_f32(acc17, h3_2);
+			vst1q_f32(sum + 272 + pass, acc17);
+			const float32x4_t w2_3 = vmulq_f32(w1_3, x1);
+			const float32x4_t t18 = vmulq_f32(vdupq_n_f32(10.0f), w2_3);
+			const float32x4_t t19 = vfmaq_f32(t18, h2_2, y0);
+			const float32x4_t h2_3 = vfmaq_f32(t19, h1_3, x0);
+			float32x4_t acc18 = vld1q_f32(sum + 288 + pass);
+			acc18 = vaddq_f32(acc18, h2_3);
+			vst1q_f32(sum + 288 + pass, acc18);
+			const float32x4_t w1_4 = vmulq_f32(w0_4, x1);
+			const float32x4_t t20 = vmulq_f32(vdupq_n_f32(5.0f), w1_4);
+			const float32x4_t t21 = vfmaq_f32(t20, h1_3, y0);
+			const float32x4_t h1_4 = vfmaq_f32(t21, h0_4, x0);
+			float32x4_t acc19 = vld1q_f32(sum + 304 + pass);
+			acc19 = vaddq_f32(acc19, h1_4);
+			vst1q_f32(sum + 304 + pass, acc19);
+			const float32x4_t w0_5 = vmulq_f32(w0_4, y1);
+			const float32x4_t h0_5 = vfmaq_f32(w0_5, h0_4, y0);
+			float32x4_t acc20 = vld1q_f32(sum + 320 + pass);
+			acc20 = vaddq_f32(acc20, h0_5);
+			vst1q_f32(sum + 320 + pass, acc20);
+			const float32x4_t w6_0 = vmulq_f32(w5_0, x1);
+			const float32x4_t h6_0 = vfmaq_f32(w6_0, h5_0, x0);
+			float32x4_t acc21 = vld1q_f32(sum + 336 + pass);
+			acc21 = vaddq_f32(acc21, h6_0);
+			vst1q_f32(sum + 336 + pass, acc21);
+			const float32x4_t w5_1 = vmulq_f32(w4_1, x1);
+			const float32x4_t t22 = vmulq_f32(vdupq_n_f32(6.0f), w5_1);
+			const float32x4_t t23 = vfmaq_f32(t22, h5_0, y0);
+			const float32x4_t h5_1 = vfmaq_f32(t23, h4_1, x0);
+			float32x4_t acc22 = vld1q_f32(sum + 352 + pass);
+			acc22 = vaddq_f32(acc22, h5_1);
+			vst1q_f32(sum + 352 + pass, acc22);
+			const float32x4_t w4_2 = vmulq_f32(w3_2, x1);
+			const float32x4_t t24 = vmulq_f32(vdupq_n_f32(15.0f), w4_2);
+			const float32x4_t t25 = vfmaq_f32(t24, h4_1, y0);
+			const float32x4_t h4_2 = vfmaq_f32(t25, h3_2, x0);
+			float32x4_t acc23 = vld1q_f32(sum + 368 + pass);
+			acc23 = vaddq_f32(acc23, h4_2);
+			vst1q_f32(sum + 368 + pass, acc23);
+			const float32x4_t w3_3 = vmulq_f32(w2_3, x1);
+			const float32x4_t t26 = vmulq_f32(vdupq_n_f32(20.0f), w3_3);
+			const float32x4_t t27 = vfmaq_f32(t26, h3_2, y0);
+			const float32x4_t h3_3 = vfmaq_f32(t27, h2_3, x0);
+			float32x4_t acc24 = vld1q_f32(sum + 384 + pass);
+			acc24 = vaddq_f32(acc24, h3_3);
+			vst1q_f32(sum + 384 + pass, acc24);
+			const float32x4_t w2_4 = vmulq_f32(w1_4, x1);
+			const float32x4_t t28 = vmulq_f32(vdupq_n_f32(15.0f), w2_4);
+			const float32x4_t t29 = vfmaq_f32(t28, h2_3, y0);
+			const float32x4_t h2_4 = vfmaq_f32(t29, h1_4, x0);
+			float32x4_t acc25 = vld1q_f32(sum + 400 + pass);
+			acc25 = vaddq_f32(acc25, h2_4);
+			vst1q_f32(sum + 400 + pass, acc25);
+			const float32x4_t w1_5 = vmulq_f32(w0_5, x1);
+			const float32x4_t t30 = vmulq_f32(vdupq_n_f32(6.0f), w1_5);
+			const float32x4_t t31 = vfmaq_f32(t30, h1_4, y0);
+			const float32x4_t h1_5 = vfmaq_f32(t31, h0_5, x0);
+			float32x4_t acc26 = vld1q_f32(sum + 416 + pass);
+			acc26 = vaddq_f32(acc26, h1_5);
+			vst1q_f32(sum + 416 + pass, acc26);
+			const float32x4_t w0_6 = vmulq_f32(w0_5, y1);
+			const float32x4_t h0_6 = vfmaq_f32(w0_6, h0_5, y0);
+			float32x4_t acc27 = vld1q_f32(sum + 432 + pass);
+			acc27 = vaddq_f32(acc27, h0_6);
+			vst1q_f32(sum + 432 + pass, acc27);
+			const float32x4_t w7_0 = vmulq_f32(w6_0, x1);
+			const float32x4_t h7_0 = vfmaq_f32(w7_0, h6_0, x0);
+			float32x4_t acc28 = vld1q_f32(sum + 448 + pass);
+			acc28 = vaddq_f32(acc28, h7_0);
+			vst1q_f32(sum + 448 + pass, acc28);
+			const float32x4_t w6_1 = vmulq_f32(w5_1, x1);
+			const float32x4_t t32 = vmulq_f32(vdupq_n_f32(7.0f), w6_1);
+			const float32x4_t t33 = vfmaq_f32(t32, h6_0, y0);
+			const float32x4_t h6_1 = vfmaq_f32(t33, h5_1, x0);
+			float32x4_t acc29 = vld1q_f32(sum + 464 + pass);
+			acc29 = vaddq_f32(acc29, h6_1);
+			vst1q_f32(sum + 464 + pass, acc29);
+			const float32x4_t w5_2 = vmulq_f32(w4_2, x1);
+			const float32x4_t t34 = vmulq_f32(vdupq_n_f32(21.0f), w5_2);
+			const float32x4_t t35 = vfmaq_f32(t34, h5_1, y0);
+			const float32x4_t h5_2 = vfmaq_f32(t35, h4_2, x0);
+			float32x4_t acc30 = vld1q_f32(sum + 480 + pass);
+			acc30 = vaddq_f32(acc30, h5_2);
+			vst1q_f32(sum + 480 + pass, acc30);
+			const float32x4_t w4_3 = vmulq_f32(w3_3, x1);
+			const float32x4_t t36 = vmulq_f32(vdupq_n_f32(35.0f), w4_3);
+			const float32x4_t t37 = vfmaq_f32(t36, h4_2, y0);
+			const float32x4_t h4_3 = vfmaq_f32(t37, h3_3, x0);
+			float32x4_t acc31 = vld1q_f32(sum + 496 + pass);
+			acc31 = vaddq_f32(acc31, h4_3);
+			vst1q_f32(sum + 496 + pass, acc31);
+			const float32x4_t w3_4 = vmulq_f32(w2_4, x1);
+			const float32x4_t t38 = vmulq_f32(vdupq_n_f32(35.0f), w3_4);
+			const float32x4_t t39 = vfmaq_f32(t38, h3_3, y0);
+			const float32x4_t h3_4 = vfmaq_f32(t39, h2_4, x0);
+			float32x4_t acc32 = vld1q_f32(sum + 512 + pass);
+			acc32 = vaddq_f32(acc32, h3_4);
+			vst1q_f32(sum + 512 + pass, acc32);
+			const float32x4_t w2_5 = vmulq_f32(w1_5, x1);
+			const float32x4_t t40 = vmulq_f32(vdupq_n_f32(21.0f), w2_5);
+			const float32x4_t t41 = vfmaq_f32(t40, h2_4, y0);
+			const float32x4_t h2_5 = vfmaq_f32(t41, h1_5, x0);
+			float32x4_t acc33 = vld1q_f32(sum + 528 + pass);
+			acc33 = vaddq_f32(acc33, h2_5);
+			vst1q_f32(sum + 528 + pass, acc33);
+			const float32x4_t w1_6 = vmulq_f32(w0_6, x1);
+			const float32x4_t t42 = vmulq_f32(vdupq_n_f32(7.0f), w1_6);
+			const float32x4_t t43 = vfmaq_f32(t42, h1_5, y0);
+			const float32x4_t h1_6 = vfmaq_f32(t43, h0_6, x0);
+			float32x4_t acc34 = vld1q_f32(sum + 544 + pass);
+			acc34 = vaddq_f32(acc34, h1_6);
+			vst1q_f32(sum + 544 + pass, acc34);
+			const float32x4_t w0_7 = vmulq_f32(w0_6, y1);
+			const float32x4_t h0_7 = vfmaq_f32(w0_7, h0_6, y0);
+			float32x4_t acc35 = vld1q_f32(sum + 560 + pass);
+			acc35 = vaddq_f32(acc35, h0_7);
+			vst1q_f32(sum + 560 + pass, acc35);
+			float32x4_t acc36 = vld1q_f32(sum + 576 + pass);
+			const float32x4_t t44 = vfmaq_f32(acc36, w7_0, x1);
+			acc36 = vfmaq_f32(t44, h7_0, x0);
+			vst1q_f32(sum + 576 + pass, acc36);
+			float32x4_t acc37 = vld1q_f32(sum + 592 + pass);
+			const float32x4_t t45 = vfmaq_f32(acc37, h7_0, y0);
+			acc37 = vfmaq_f32(t45, h6_1, x0);
+			vst1q_f32(sum + 592 + pass, acc37);
+			float32x4_t acc38 = vld1q_f32(sum + 608 + pass);
+			const float32x4_t t46 = vfmaq_f32(acc38, h6_1, y0);
+			acc38 = vfmaq_f32(t46, h5_2, x0);
+			vst1q_f32(sum + 608 + pass, acc38);
+			float32x4_t acc39 = vld1q_f32(sum + 624 + pass);
+			const float32x4_t t47 = vfmaq_f32(acc39, h5_2, y0);
+			acc39 = vfmaq_f32(t47, h4_3, x0);
+			vst1q_f32(sum + 624 + pass, acc39);
+			float32x4_t acc40 = vld1q_f32(sum + 640 + pass);
+			const float32x4_t t48 = vfmaq_f32(acc40, h4_3, y0);
+			acc40 = vfmaq_f32(t48, h3_4, x0);
+			vst1q_f32(sum + 640 + pass, acc40);
+			float32x4_t acc41 = vld1q_f32(sum + 656 + pass);
+			const float32x4_t t49 = vfmaq_f32(acc41, h3_4, y0);
+			acc41 = vfmaq_f32(t49, h2_5, x0);
+			vst1q_f32(sum + 656 + pass, acc41);
+			float32x4_t acc42 = vld1q_f32(sum + 672 + pass);
+			const float32x4_t t50 = vfmaq_f32(acc42, h2_5, y0);
+			acc42 = vfmaq_f32(t50, h1_6, x0);
+			vst1q_f32(sum + 672 + pass, acc42);
+			float32x4_t acc43 = vld1q_f32(sum + 688 + pass);
+			const float32x4_t t51 = vfmaq_f32(acc43, h1_6, y0);
+			acc43 = vfmaq_f32(t51, h0_7, x0);
+			vst1q_f32(sum + 688 + pass, acc43);
+			float32x4_t acc44 = vld1q_f32(sum + 704 + pass);
+			const float32x4_t t52 = vfmaq_f32(acc44, w0_7, y1);
+			acc44 = vfmaq_f32(t52, h0_7, y0);
+			vst1q_f32(sum + 704 + pass, acc44);
+			float32x4_t acc45 = vld1q_f32(sum + 720 + pass);
+			acc45 = vfmaq_f32(acc45, w6_1, x1);
+			vst1q_f32(sum + 720 + pass, acc45);
+			float32x4_t acc46 = vld1q_f32(sum + 736 + pass);
+			acc46 = vfmaq_f32(acc46, w5_2, x1);
+			vst1q_f32(sum + 736 + pass, acc46);
+			float32x4_t acc47 = vld1q_f32(sum + 752 + pass);
+			acc47 = vfmaq_f32(acc47, w4_3, x1);
+			vst1q_f32(sum + 752 + pass, acc47);
+			float32x4_t acc48 = vld1q_f32(sum + 768 + pass);
+			acc48 = vfmaq_f32(acc48, w3_4, x1);
+			vst1q_f32(sum + 768 + pass, acc48);
+			float32x4_t acc49 = vld1q_f32(sum + 784 + pass);
+			acc49 = vfmaq_f32(acc49, w2_5, x1);
+			vst1q_f32(sum + 784 + pass, acc49);
+			float32x4_t acc50 = vld1q_f32(sum + 800 + pass);
+			acc50 = vfmaq_f32(acc50, w1_6, x1);
+			vst1q_f32(sum + 800 + pass, acc50);
+			float32x4_t acc51 = vld1q_f32(sum + 816 + pass);
+			acc51 = vfmaq_f32(acc51, w0_7, x1);
 			vst1q_f32(sum + 816 + pass, acc51);
 		}
 	}

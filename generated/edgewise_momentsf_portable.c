@@ -9,28 +9,32 @@
 #include "edgewise.h"
 #include "edgewise_kernels.h"
 
+#include <math.h>
+
 /* area; scheme vertex.
  * Cost per item: 1 mul, 3 add; 2 accumulators, 4 values alive, depth 3. */
 void ew_ring_moments_0f_portable(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
+		const float cx = origin[lane];
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
-		for (size_t i = lane; i < count; i += 32) {
+		for (size_t i = lane; i < count; i += 2 * step) {
 			{
 				const float y0 = y[i];
-				const float x1 = x[i + 1];
-				const float y2 = y[i + 2];
+				const float x1 = x[i + reach];
+				const float y2 = y[i + 2 * reach];
 				const float width = x1 - cx;
 				const float height = y2 - y0;
 				const float t0 = width * height;
 				acc0 = acc0 + t0;
 			}
-			if (count - i > 16) {
-				const float y0 = y[i + 16];
-				const float x1 = x[i + 17];
-				const float y2 = y[i + 18];
+			if (count - i > step) {
+				const float y0 = y[i + step];
+				const float x1 = x[i + step + reach];
+				const float y2 = y[i + step + 2 * reach];
 				const float width = x1 - cx;
 				const float height = y2 - y0;
 				const float t0 = width * height;
@@ -45,18 +49,19 @@ void ew_ring_moments_0f_portable(
 /* all moments of x^m y^n, m + n <= 1; scheme even-power.
  * Cost per item: 4 mul, 6 add; 3 accumulators, 7 values alive, depth 4. */
 void ew_ring_moments_1f_portable(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
@@ -77,21 +82,22 @@ void ew_ring_moments_1f_portable(
 /* all moments of x^m y^n, m + n <= 2; scheme shared.
  * Cost per item: 12 mul, 14 add; 6 accumulators, 11 values alive, depth 6. */
 void ew_ring_moments_2f_portable(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
 		float acc3 = sum[48 + lane];
 		float acc4 = sum[64 + lane];
 		float acc5 = sum[80 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
@@ -131,10 +137,11 @@ void ew_ring_moments_2f_portable(
 /* all moments of x^m y^n, m + n <= 3; scheme even-power.
  * Cost per item: 18 mul, 23 add; 15 accumulators, 11 values alive, depth 7. */
 void ew_ring_moments_3f_portable(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
@@ -150,11 +157,11 @@ void ew_ring_moments_3f_portable(
 		float acc12 = sum[192 + lane];
 		float acc13 = sum[208 + lane];
 		float acc14 = sum[224 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
@@ -218,10 +225,11 @@ void ew_ring_moments_3f_portable(
 /* all moments of x^m y^n, m + n <= 4; scheme even-power.
  * Cost per item: 33 mul, 34 add; 26 accumulators, 16 values alive, depth 6. */
 void ew_ring_moments_4f_portable(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
@@ -248,11 +256,11 @@ void ew_ring_moments_4f_portable(
 		float acc23 = sum[368 + lane];
 		float acc24 = sum[384 + lane];
 		float acc25 = sum[400 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
@@ -353,10 +361,11 @@ void ew_ring_moments_4f_portable(
 /* all moments of x^m y^n, m + n <= 5; scheme recurrence.
  * Cost per item: 58 mul, 52 add; 25 accumulators, 16 values alive, depth 16. */
 void ew_ring_moments_5f_portable(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
@@ -382,11 +391,11 @@ void ew_ring_moments_5f_portable(
 		float acc22 = sum[352 + lane];
 		float acc23 = sum[368 + lane];
 		float acc24 = sum[384 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
@@ -529,10 +538,11 @@ void ew_ring_moments_5f_portable(
 /* all moments of x^m y^n, m + n <= 6; scheme recurrence.
  * Cost per item: 81 mul, 71 add; 33 accumulators, 18 values alive, depth 19. */
 void ew_ring_moments_6f_portable(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
@@ -566,11 +576,11 @@ void ew_ring_moments_6f_portable(
 		float acc30 = sum[480 + lane];
 		float acc31 = sum[496 + lane];
 		float acc32 = sum[512 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
@@ -763,10 +773,11 @@ void ew_ring_moments_6f_portable(
 /* all moments of x^m y^n, m + n <= 7; scheme recurrence.
  * Cost per item: 108 mul, 93 add; 42 accumulators, 20 values alive, depth 22. */
 void ew_ring_moments_7f_portable(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
@@ -809,11 +820,11 @@ void ew_ring_moments_7f_portable(
 		float acc39 = sum[624 + lane];
 		float acc40 = sum[640 + lane];
 		float acc41 = sum[656 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;
@@ -1064,10 +1075,11 @@ void ew_ring_moments_7f_portable(
 /* all moments of x^m y^n, m + n <= 8; scheme recurrence.
  * Cost per item: 139 mul, 118 add; 52 accumulators, 22 values alive, depth 25. */
 void ew_ring_moments_8f_portable(
-	const float *x, const float *y, float cx, size_t count, float *sum)
+	const float *x, const float *y, const float *origin,
+	size_t reach, size_t step, size_t count, float *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 16 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		float acc0 = sum[lane];
 		float acc1 = sum[16 + lane];
 		float acc2 = sum[32 + lane];
@@ -1120,11 +1132,11 @@ void ew_ring_moments_8f_portable(
 		float acc49 = sum[784 + lane];
 		float acc50 = sum[800 + lane];
 		float acc51 = sum[816 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += step) {
 			const float x0 = x[i];
 			const float y0 = y[i];
-			const float x1 = x[i + 1];
-			const float y1 = y[i + 1];
+			const float x1 = x[i + reach];
+			const float y1 = y[i + reach];
 			const float t0 = x0 * y1;
 			const float t1 = x1 * y0;
 			const float s = t0 - t1;

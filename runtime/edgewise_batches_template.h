@@ -259,7 +259,7 @@ static void EW_LOCAL(begin)(EW_LOCAL(batch) *b, int degree, int moved, const EW_
 	b->moved = moved;
 	b->run = EW_LOCAL(kernel)(b->id, target);
 	b->finish = ew_ring_finish_columns(target, degree, &b->finished);
-	b->divide = ew_ring_divide_of(target);
+	b->divide = ew_ring_divide_by_target(target);
 	b->by = EW_LOCAL(by_columns)(target);
 	b->far = rings && (size_t)offsets[rings] > EW_CACHED / sizeof *x;
 	b->side = degree < EW_SIDES && b->by->side[degree];

@@ -339,7 +339,7 @@ EW_INLINE void ew_ring_block_neonf(const float *from, const size_t *start, float
 #define ew_ring_divide_portable ew_ring_divide_scalar
 #define ew_ring_divide_fma ew_ring_divide_scalar
 
-ew_ring_divide *ew_ring_divide_of(unsigned used)
+ew_ring_divide *ew_ring_divide_by_target(unsigned used)
 {
 #define EW_CASE(TARGET, target, doubles) case EW_##TARGET: return ew_ring_divide_##target;
 	switch (used) {

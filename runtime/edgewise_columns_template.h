@@ -75,20 +75,20 @@ EW_ATTRIBUTE static void EW_ISA(gather)(const EW_REAL *x, const EW_REAL *y,
 
 #ifdef EW_MAX_DEGREE
 #define EW_SIDE(stem) EW_ISA(stem##_0)
-#define EW_SUMS 2
-#define EW_NEXT(k) EW_ITEM(0)(qy, px, vy, cx, acc + (k) % 2)
+#define EW_SUMS EW_SUMS_0
+#define EW_NEXT(k) EW_NEXT_0(EW_ITEM(0), k)
 #include "edgewise_sides_template.h"
 #endif
 #if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 1
 #define EW_SIDE(stem) EW_ISA(stem##_1)
-#define EW_SUMS 3
-#define EW_NEXT(k) EW_ITEM(1)(px, py, vx, vy, cx, acc)
+#define EW_SUMS EW_SUMS_1
+#define EW_NEXT(k) EW_NEXT_1(EW_ITEM(1), k)
 #include "edgewise_sides_template.h"
 #endif
 #if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 2
 #define EW_SIDE(stem) EW_ISA(stem##_2)
-#define EW_SUMS 6
-#define EW_NEXT(k) EW_ITEM(2)(px, py, vx, vy, cx, acc)
+#define EW_SUMS EW_SUMS_2
+#define EW_NEXT(k) EW_NEXT_2(EW_ITEM(2), k)
 #include "edgewise_sides_template.h"
 #endif
 

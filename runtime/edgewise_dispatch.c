@@ -16,11 +16,11 @@ enum { EW_CPU_NAMES = (int)(sizeof ew_cpu_names / sizeof *ew_cpu_names) };
 static unsigned ew_cpu_available, ew_cpu_forced;       /* 0: not asked yet; 0: not forced */
 
 #if defined(__GNUC__) || defined(__clang__)
-#define EW_LOAD(word) __atomic_load_n(&(word), __ATOMIC_RELAXED)
-#define EW_STORE(word, value) __atomic_store_n(&(word), value, __ATOMIC_RELAXED)
+#define EW_CPU_LOAD(word) __atomic_load_n(&(word), __ATOMIC_RELAXED)
+#define EW_CPU_STORE(word, value) __atomic_store_n(&(word), value, __ATOMIC_RELAXED)
 #else                                          /* aligned words do not tear */
-#define EW_LOAD(word) (*(volatile unsigned *)&(word))
-#define EW_STORE(word, value) (*(volatile unsigned *)&(word) = (value))
+#define EW_CPU_LOAD(word) (*(volatile unsigned *)&(word))
+#define EW_CPU_STORE(word, value) (*(volatile unsigned *)&(word) = (value))
 #endif
 
 #if EW_X86
@@ -78,17 +78,17 @@ static unsigned ew_cpu_detect(void)
 
 unsigned ew_targets(void)
 {
-	unsigned known = EW_LOAD(ew_cpu_available);
+	unsigned known = EW_CPU_LOAD(ew_cpu_available);
 	if (!known) {
 		known = ew_cpu_detect();
-		EW_STORE(ew_cpu_available, known);
+		EW_CPU_STORE(ew_cpu_available, known);
 	}
 	return known;
 }
 
 unsigned ew_cpu_target(void)
 {
-	unsigned forced = EW_LOAD(ew_cpu_forced);
+	unsigned forced = EW_CPU_LOAD(ew_cpu_forced);
 	if (forced)
 		return forced;
 	unsigned best = EW_PORTABLE;               /* bits stand in the order of speed */
@@ -101,7 +101,7 @@ int ew_use_target(unsigned target)
 {
 	if (target & (target - 1) || (target & ew_targets()) != target)
 		return EW_UNSUPPORTED;
-	EW_STORE(ew_cpu_forced, target);
+	EW_CPU_STORE(ew_cpu_forced, target);
 	return EW_OK;
 }
 

@@ -76,7 +76,7 @@ extern "C" {
 unsigned ew_cpu_target(void);  /* the forced target, or the best one: one bit */
 const ew_ring_columns *ew_ring_by_columns(unsigned target);
 const ew_ring_columnsf *ew_ring_by_columnsf(unsigned target);
-ew_ring_divide *ew_ring_divide_of(unsigned target);
+ew_ring_divide *ew_ring_divide_by_target(unsigned target);
 
 #ifdef __cplusplus
 }

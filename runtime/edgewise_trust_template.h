@@ -72,7 +72,7 @@ int EW_NAME(moments_bounded)(int degree, const EW_REAL *x, const EW_REAL *y, siz
 	for (int j = 0; j < EW_MOMENTS(degree); ++j) {
 		const double off = EW_LOCAL(gamma)(bounds[degree].k[j] + sum);
 		const double most = terms[j] * (1 + 2 * EW_LOCAL(gamma)(slip)) + tiny;
-		const double stored = EW_IS_FLOAT ? fabs((double)out[j]) * EW_UNIT : 0;
+		const double stored = fabs((double)out[j]) * (EW_IS_FLOAT ? EW_UNIT : 0);
 		bound[j] = EW_LOCAL(upwards)(((off * most + tiny) + stored) * EW_SLACK);
 	}
 	return EW_OK;

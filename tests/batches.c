@@ -2,9 +2,10 @@
  *
  * The result of each ring is, bit for bit, what the function for one ring gives on the same target,
  * whatever the other rings are: short and long ones, closed and implied, empty, of area 0, huge,
- * tiny, or not finite. (The two zeros are one.) Nothing is read besides the vertices of the rings and their offsets, all of
- * which touch inaccessible pages, and nothing is written besides the results, which may exceed the
- * caches. Bad offsets and bad degrees are refused before anything is written.
+ * tiny, or not finite. (The two zeros are one.) Nothing is read besides the vertices of the rings
+ * and their offsets, all of which touch inaccessible pages, and nothing is written besides the
+ * results, which may exceed the caches. Bad offsets and bad degrees are refused before anything is
+ * written.
  *
  * Last, what that is for: polygons of size 10 at (5e5, 4e6) keep their accuracy, against exact
  * rationals.
@@ -139,7 +140,8 @@ static bool expect_ring(const Batch *b, int what, size_t ring, const void *out)
 		const size_t place = what == CENTROID ? j * b->rings + ring : ring * each + j;
 		const double got = get(b->api, out, (int)place), want = get(b->api, one, (int)j);
 		if (!expect(same_number(got, want), "call %d, ring %zu of %zu with %zu vertices: "
-			"result %zu is %a, alone %a", what, ring, b->rings, ring_size(b, ring), j, got, want))
+			"result %zu is %a, alone %a", what, ring, b->rings, ring_size(b, ring), j,
+			got, want))
 			return false;
 	}
 	return true;
@@ -466,7 +468,8 @@ static void measure(const double *x, const double *y, size_t n, Worst *worst)
 			const int i = ref_index(m, k);
 			const double error = error_of(out[i], central[i].value);
 			if (m + k != 1)
-				worst->central = fmax(worst->central, error / scale_of(central, m, k));
+				worst->central = fmax(worst->central,
+					error / scale_of(central, m, k));
 		}
 	}
 	mpq_clears(to[0], to[1], NULL);

@@ -122,8 +122,8 @@ for option in --no-runtime --check --dry-run --list --quiet --verbose --help --v
 	expect_error "$option with value" 2 "$option" "$option=1"
 done
 for option in '--max-degree 2' '--families moments' '--precision double' '--targets fma' \
-	'--scheme horner' '--prefix foo' '--out new' '--single-header new' '--manifest new' '--depfile new' \
-	'--show x1y0' '-d p'; do
+	'--scheme horner' '--prefix foo' '--out new' '--single-header new' '--manifest new' \
+	'--depfile new' '--show x1y0' '-d p'; do
 	# shellcheck disable=SC2086
 	expect_error "${option% *} twice" 2 "${option% *} is given twice" $option $option
 done
@@ -142,7 +142,8 @@ expect_error '--families with unknown word' 2 "'curves'" --families moments,curv
 expect_error '--families with trailing comma' 2 "''" --families moments,
 expect_error '--precision with unknown word' 2 "'half'" --precision half
 expect_error '--targets with unknown word' 2 "'avx3'" --targets portable,avx3
-expect_error '--scheme with unknown word' 2 "unknown word 'fast'; known: matrix, horner," --scheme fast
+expect_error '--scheme with unknown word' 2 "unknown word 'fast'; known: matrix, horner," \
+	--scheme fast
 expect_error '--scheme with two words' 2 "'matrix,horner'" --scheme matrix,horner
 expect_error '--show with --scheme' 2 '--scheme' --show x4y2 --scheme matrix
 for option in '--manifest new --depfile new' '--single-header new --manifest new' \

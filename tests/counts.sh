@@ -7,11 +7,12 @@
 # of every ring kernel, against the comment above it, the manifest and the list in
 # edgewise_kernels.h. A loop says in its header how many items it takes at a time: a kernel has up
 # to three (vectors shifted into place, whole vectors, the rest), and the vertex form and the stored
-# shape take two items at a time. Moments on targets with FMA are also held against the promised
-# bars. Scalar targets spell operations as C operators, vector targets as intrinsics. Loads, stores
-# and loop headers are not operations, nor is the sign inside a constant or before an operand. An
-# absolute value costs nothing; there must be as many of them as in the kernel of target fma. What
-# ew_ring_lost takes is counted in the list, where it stands.
+# shape take two items at a time; an item that batches use alone is a function. Moments on targets
+# with FMA are also held against the promised bars. Scalar targets spell operations as C operators,
+# vector targets as intrinsics. Loads, stores and loop headers are not operations, nor is the sign
+# inside a constant or before an operand. An absolute value costs nothing; there must be as many of
+# them as in the kernel of target fma. What ew_ring_lost takes is counted in the list, where it
+# stands.
 set -u
 build=${1:-build}
 . "$(dirname "$0")/verdict.sh"
@@ -56,12 +57,11 @@ function count_scalar(text) {
 }
 
 function count_vector(text) {
-	absolute += gsub(/_max_p[sd]\([a-z0-9_]+,[ \t]*_mm[0-9]*_sub_p[sd]\(_mm[0-9]*_setzero_/, "(", text)
-	absolute += gsub(/vabsq_f/, "(", text)
+	absolute += gsub(/EW_ABS_mm|vabsq_f/, "(", text)
 	fma += gsub(/_fn?m(add|sub)_p|vfm[as]q_f/, "(", text)
 	mul += gsub(/_mul_p|vmulq_/, "(", text)
 	add += gsub(/_(add|sub)_p|v(add|sub)q_/, "(", text)
-	stray += gsub(/[]A-Za-z0-9_)] [-+*\/] |_max_|_div_|vmaxq|vdivq/, "(", text)
+	stray += gsub(/[]A-Za-z0-9_)] [-+*\/] |_(max|min|div)_|v(max|min|div)q/, "(", text)
 }
 
 function count(body, vector) {
@@ -111,6 +111,17 @@ function close_kernel() {
 	all_loops += loops
 }
 
+# An item alone, for vectors that are in registers already.
+function check_item(kernel, ring) {
+	count(body, 1)
+	if (stray || absolute)
+		fail(kernel, absolute " absolute " stray " stray")
+	expect(kernel, "the manifest", json_cost(rings[ring], "fma"),
+		mul " mul " fma " fma " add " add")
+	items_seen++
+	all_loops++
+}
+
 function check_edge(name, edge) {
 	count(body, 0)
 	expect(name, "the comment", comment, mul " and " add)
@@ -121,14 +132,14 @@ function check_edge(name, edge) {
 }
 
 function close_file() {
-	if (file && kernels == 0)
+	if (file && kernels + items_seen == 0)
 		fail(file, "no kernel found")
 	if (file && !bad) {
-		print "ok counts of " file ", " kernels " kernels, " all_loops " bodies"
+		print "ok counts of " file ", " kernels " kernels, " all_loops " loops or bodies"
 		passed++
 	}
 	seen += kernels
-	kernels = all_loops = bad = 0
+	kernels = all_loops = items_seen = bad = 0
 }
 
 /"ring": / {
@@ -147,7 +158,7 @@ function close_file() {
 }
 FNR == 1 {
 	close_file()
-	file = FILENAME ~ /\.c$/ ? FILENAME : ""
+	file = FILENAME ~ /\.c$|_items_/ ? FILENAME : ""
 	sub(/.*\//, "", file)
 	is_float = file ~ /(linef|f_(portable|fma|avx2|avx512|neon))[0-9_]*\.c$/
 }
@@ -164,6 +175,14 @@ FNR == 1 {
 	if (is_float)
 		sub(/f$/, "", ring)
 	loops = 0
+}
+/EW_INLINE void ew_ring_[a-z0-9_]*_item_/ {
+	match($0, /ew_ring_[a-z0-9_]+/)
+	item = substr($0, RSTART, RLENGTH)
+	ring = item
+	gsub(/^ew_ring_|_item_.*/, "", ring)
+	inside = 4
+	body = ""
 }
 /ew_ring_lost\(double/ { kernel = "ew_ring_lost"; body = ""; inside = 3; next }
 /^(double|float) ew_line_/ {
@@ -206,6 +225,11 @@ inside == 3 && /^}/ {
 	inside = 0
 	kernel = ""
 }
+inside == 4 && /^}/ {
+	sub(/^[^{]*[{]/, "", body)
+	check_item(item, ring)
+	inside = 0
+}
 /^}/ && file && kernel ~ /^ew_ring/ { close_kernel() }
 inside { body = body $0 }
 
@@ -228,6 +252,7 @@ counts() {
 			set -- "$@" "$folder/edgewise_$group"*"_$target"*.c
 		done
 	done
+	set -- "$@" "$folder"/edgewise_items_*.h
 	awk -f "$work/counts.awk" "$folder/edgewise_manifest.json" \
 		"$folder/edgewise_kernels.h" "$@"
 }
@@ -235,7 +260,7 @@ counts() {
 # notices KERNEL FILE SED: one operation more or less in one loop must be noticed.
 notices() {
 	sed "$3" "$build/emitted/$2" >"$work/broken/$2"
-	if counts "$work/broken" >"$work/log" || ! grep -q "^not ok $1, loop" "$work/log"; then
+	if counts "$work/broken" >"$work/log" || ! grep -q "^not ok $1[,:]" "$work/log"; then
 		echo "not ok self-test: a wrong operation in $1 was not noticed"
 		echo "0 passed, 1 failed"
 		exit 1
@@ -250,6 +275,8 @@ notices ew_ring_moments_1_avx512 edgewise_moments_avx512.c \
 	'/moments_1_avx512(/,/mul_pd/s/_mm512_mul_pd(x0, y1)/_mm512_add_pd(x0, y1)/'
 notices ew_ring_moments_6_neon edgewise_moments_neon.c \
 	'/moments_6_neon(/,/_2 = vaddq/s/s_2 = vsubq_f64(t0_2, t1_2)/s_2 = t0_2/'
+notices ew_ring_moments_1_item_avx2 edgewise_items_avx2.h \
+	'1,/add_pd(x0/s/_mm256_add_pd(x0, x1)/x0/'
 notices ew_ring_magnitudes_0f_avx2 edgewise_trustf_avx2.c \
-	'1,/_max_ps/s/_mm256_max_ps/_mm256_min_ps/'
+	'1,/EW_ABS/s/EW_ABS_mm256_ps(\([a-z0-9]*\))/\1/'
 counts "$build/emitted"

@@ -14,26 +14,9 @@
 # else. A machine whose compiler or emulator is missing is skipped by name.
 set -u
 build=${1:-build}
-tests=$(cd "$(dirname "$0")" && pwd) || exit 1
+. "$(dirname "$0")/verdict.sh"
 emitted=$(cd "$build/emitted" && pwd) || exit 1
 hashes=$tests/hashes.txt
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 1' HUP INT TERM
-passed=0 failed=0
-
-# NAME [PROBLEM]
-verdict() {
-	if [ -z "${2:-}" ]; then
-		passed=$((passed + 1))
-		echo "ok $1"
-	else
-		failed=$((failed + 1))
-		echo "not ok $1: $2"
-	fi
-}
-
-has() { command -v "$1" >/dev/null 2>&1; }
 
 STRICT="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wundef -Wdouble-promotion -Wcast-qual"
 STRICT="$STRICT -Werror"
@@ -61,9 +44,9 @@ results() {
 	name=$1 emulator=$2
 	shift 2
 	for tool in ${emulator%% *} "$1"; do
-		has "$tool" || { echo "skip $name: $tool is not installed"; return 1; }
+		has "$tool" || { skip "$name" "$tool is not installed"; return 1; }
 	done
-	links "$1" || { echo "skip $name: $1 has no static C library"; return 1; }
+	links "$1" || { skip "$name" "$1 has no static C library"; return 1; }
 	program "$@"
 	if [ ! -x "$folder/hash" ]; then
 		verdict "$name compiles" "$(grep -E -m 1 'error|warning|undefined|cannot find' \
@@ -121,13 +104,13 @@ says() {
 x87() {
 	want=$1
 	shift
-	has "$1" || { echo "skip x87 $*: $1 is not installed"; return; }
+	has "$1" || { skip "x87 $*" "$1 is not installed"; return; }
 	got=$(says "$@" "$emitted/edgewise_finish.c")
 	verdict "x87 $want $*" "$([ "$got" = "$want" ] || echo "$got")"
 }
 
 every_file_refuses() {
-	has i686-linux-gnu-gcc || { echo "skip x87 every file: no i686-linux-gnu-gcc"; return; }
+	has i686-linux-gnu-gcc || { skip "x87 every file" "no i686-linux-gnu-gcc"; return; }
 	"$build/gen" --quiet --max-degree 2 --single-header "$work/single.h" || exit 1
 	printf '#define EW_IMPLEMENTATION\n#include "single.h"\n' >"$work/single.c"
 	verdict "x87 every file refuses" "$(for file in "$emitted"/*.c "$work/single.c"; do
@@ -217,5 +200,4 @@ else
 	test_control
 	test_x87
 fi
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+finish

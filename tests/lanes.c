@@ -1,9 +1,10 @@
 /* The virtual-lane definition of the fma target, written out plainly and compared bit for bit.
  *
  * Item j goes to lane j mod L, L = 8 for double and 16 for float, but 1 for a ring of fewer than 24
- * vertices; a lane adds its items in order, from +0, with fused multiply-adds. After every 64 items a float lane is added to a double of its
- * own and starts again from 0. At the end lanes l and l + L/2 are added, then l and l + L/4, down
- * to one; that sum is scaled in double and rounded to the precision.
+ * vertices; a lane adds its items in order, from +0, with fused multiply-adds. After every 64 items
+ * a float lane is added to a double of its own and starts again from 0. At the end lanes l and
+ * l + L/2 are added, then l and l + L/4, down to one; that sum is scaled in double and rounded to
+ * the precision.
  *
  *     area      item j is vertex i = j+1 < n, and j / L mod 2 says which of two sets of lanes
  *               takes it: lane = fma(x_i - x_0, y_(i+1) - y_(i-1), lane); the sums of the two sets

@@ -11,23 +11,8 @@
 # all this is not shown here.
 set -u
 build=${1:-build}
-tests=$(dirname "$0")
+. "$(dirname "$0")/verdict.sh"
 emitted=$(cd "$build/emitted" && pwd) || exit 1
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 1' HUP INT TERM
-passed=0 failed=0
-
-# NAME [PROBLEM]
-verdict() {
-	if [ -z "${2:-}" ]; then
-		passed=$((passed + 1))
-		echo "ok $1"
-	else
-		failed=$((failed + 1))
-		echo "not ok $1: $2"
-	fi
-}
 
 CLANG="clang -ffreestanding -isystem $work/include -I$emitted -O0 -Wall -Wextra -Wpedantic"
 CLANG="$CLANG -Wconversion -Wshadow -Wundef -Wdouble-promotion -Wcast-qual -Werror"
@@ -110,7 +95,7 @@ simulated() {
 
 simulated
 if ! command -v clang >/dev/null; then
-	echo "skip msvc: clang is not installed"
+	skip "msvc" "clang is not installed"
 	echo "$passed passed, $failed failed"
 	[ $failed -eq 0 ]
 	exit
@@ -132,5 +117,4 @@ verdict 'msvc dispatch asks by __cpuidex and _xgetbv' "$(
 	done)"
 verdict 'msvc sees nothing in the spelling of GNU' \
 	"$(grep -E -m 1 '__attribute__|__asm|__atomic|__builtin|__extension__' "$work/own")"
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+finish

@@ -5,8 +5,8 @@
 # The schemes, fusion and schedule are covered one by one, and Green's theorem itself, which
 # the schemes with formulas of their own contradict. A change that only spoils the mirrored order
 # of evaluation keeps every value and must fall to the reversal proof.
-# (b) Some of gen that has no meaning over the rationals, where rounding errors are 0 and an absolute
-# value is a matter of signs: a small library that it emits must fail its tests.
+# (b) Some of gen that has no meaning over the rationals, where rounding errors are 0 and an
+# absolute value is a matter of signs: a small library that it emits must fail its tests.
 # (c) The same in emitted files and in the runtime, where no proof can see it: the tests
 # must name the broken function.
 # A mutation whose pattern is not found counts as a failure, so that the list keeps up with the
@@ -209,12 +209,12 @@ rounding=/dev/null
 if echo '#include <mpfr.h>' | ${CC:-cc} -x c -fsyntax-only - 2>/dev/null; then
 	rounding=$work/rounding.list
 	compile -c -o "$work/reference.o" "$tests/reference.c"
-	{ prepare; test_emitted; } >"$work/out2" &
+	( prepare; test_emitted ) >"$work/out2" &
 else
 	skip "rounding and emitted files" "libmpfr-dev is not installed" >"$work/out2"
 fi
-worker 0 >"$work/out0" &
-worker 1 >"$work/out1"
+( worker 0 ) >"$work/out0" &
+( worker 1 ) >"$work/out1"
 wait
 for part in 0 1 2; do
 	replay "$work/out$part"

@@ -11,7 +11,8 @@ awk '
 	/^```$/ { after = 1; next }
 	after && /^    / { print substr($0, 5); next }
 	after && NF { exit }' "$root/README.md" >"$work/want"
-if ${CC:-cc} -I"$build/emitted" -o "$work/use" "$work/use.c" "$build"/emitted/*.c -lm 2>"$work/log" &&
+if ${CC:-cc} -I"$build/emitted" -o "$work/use" "$work/use.c" "$build"/emitted/*.c -lm \
+	2>"$work/log" &&
 	"$work/use" >"$work/have" && [ -s "$work/want" ] &&
 	diff "$work/want" "$work/have" >>"$work/log"
 then

@@ -461,8 +461,9 @@ static void test_repeated(const Api *api, const char *target)
 	check_end();
 }
 
-/* Any coordinates: as many copies as there are lanes (one, as long as the ring is short) leave every
- * other edge in its lane and in its place, and each adds 0. (The vertex form has no edges to repeat.) */
+/* Any coordinates: as many copies as there are lanes (one, as long as the ring is short) leave
+ * every other edge in its lane and in its place, and each adds 0. (The vertex form has no edges to
+ * repeat.) */
 static void test_repeated_by_lanes(const Api *api, const char *target)
 {
 	const int lanes = api->bits == 24 ? 16 : 8;
@@ -604,7 +605,8 @@ static void test_extremes(const Api *api, const char *target)
 	ref_free(area, 1);
 }
 
-/* Trust: bounds, the magnitudes that they are made of, and the area in twice the precision. */
+/* Trust (more of it in trust.c): magnitudes, of which bounds are made, and the area in twice the
+ * precision. */
 
 #define RUN(id, kernel, f, a) [id] = kernel,
 #define TABLES(TARGET, target, doubles) \
@@ -719,46 +721,8 @@ static bool is_bounded(double got, const mpq_t want, const mpq_t bound)
 	return ok;
 }
 
-/* The bound holds, the moments are those of ew_moments, and on rings of ordinary size the bound is
- * at most twice what the number of roundings makes of W. */
-static void expect_bounds(const Api *api, const Case *c, int degree)
-{
-	double out[MOMENTS], bound[MOMENTS], want[MOMENTS];
-	const Ring *ring = &c->ring;
-	const long k = ring_k(api, find_row("moments", degree, 0), ring_count(ring));
-	const double gamma = gamma_of(k, api->bits);
-	const bool ordinary = strcmp(c->kind, "star") == 0 && ring->n >= 3;
-	mpq_t most;
-	mpq_init(most);
-	api->moments(degree, ring->px, ring->py, ring->n, want);
-	expect(api->bounded(degree, ring->px, ring->py, ring->n, out, bound) == EW_OK, "no EW_OK");
-	expect_same(api, want, out, ref_count(degree), "bounded", ring->n);
-	for (int i = 0; i < ref_count(degree); i++) {
-		const Ref *ref = degree ? &c->moments[i] : c->area;
-		const double got = get(api, out, i), allowed = get(api, bound, i);
-		mpq_set_d(most, allowed);
-		expect(is_bounded(got, ref->value, most),
-			"%s, n = %zu, degree %d: moment %d = %a, exact %a, bound %a", c->kind, ring->n,
-			degree, i, got, mpq_get_d(ref->value), allowed);
-		expect(!ordinary || allowed <= 2 * gamma * mpq_get_d(ref->weight),
-			"n = %zu, degree %d: bound %g of moment %d for roundings of %g", ring->n,
-			degree, allowed, i, gamma * mpq_get_d(ref->weight));
-	}
-	mpq_clear(most);
-}
-
-static void test_bounded(const Api *api, const char *target)
-{
-	check_begin("ew_moments_bounded, %s, %s", api->name, target);
-	for (int i = 0; i < CASES; i++) {
-		for (int d = 0; d <= EW_MAX_DEGREE; d++)
-			expect_bounds(api, &cases_of(api)[i], d);
-	}
-	check_end();
-}
-
-/* |got - A| <= u |A| + 2 gamma^2 sum W: at most 2 n + 20 roundings on any way into the sum (a product
- * and its error, two products for each vertex, 16 lanes), and as many on any way of what they lost
+/* |got - A| <= u |A| + 2 gamma^2 sum W: at most 2 n + 20 roundings on any way into the sum (a
+ * product and its error, two products for each vertex, 16 lanes), and as many of what they lost
  * (Ogita, Rump, Oishi 2005, proposition 4.3); the last one to the precision. */
 static void test_compensated(const Api *api, const char *target)
 {
@@ -788,7 +752,9 @@ static void test_compensated(const Api *api, const char *target)
 
 static bool is_known(const char *family)
 {
-	static const char *const known[] = { "moments", "monomial", "magnitudes", "compensated" };
+	static const char *const known[] = {
+		"moments", "monomial", "magnitudes", "compensated"
+	};
 	for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
 		if (strcmp(family, known[i]) == 0)
 			return true;
@@ -802,8 +768,8 @@ static void test_list(void)
 	check_begin("list of ring kernels");
 	for (int d = 0; d <= EW_MAX_DEGREE; d++) {
 		expect(find_row("moments", d, 0)->outputs == ref_count(d)
-			&& find_row("magnitudes", d, 0)->outputs == ref_count(d), "outputs of degree %d",
-			d);
+				&& find_row("magnitudes", d, 0)->outputs == ref_count(d),
+			"outputs of degree %d", d);
 		for (int n = 0; n <= d; n++)
 			expect(find_row("monomial", d - n, n)->outputs == 1, "outputs of x%dy%d",
 				d - n, n);
@@ -836,7 +802,6 @@ int main(int argc, char **argv)
 	for_each_target(test_nothing);
 	for_each_target(test_extremes);
 	for_each_target(test_magnitudes);
-	for_each_target(test_bounded);
 	for_each_target(test_compensated);
 	free_cases();
 	return check_finish();

@@ -28,7 +28,6 @@ typedef struct {
 	double (*area)(const void *x, const void *y, size_t n);
 	int (*centroid)(const void *x, const void *y, size_t n, void *c);
 	int (*central)(int degree, const void *x, const void *y, size_t n, void *c, void *out);
-	int (*bounded)(int degree, const void *x, const void *y, size_t n, void *out, void *bound);
 	double (*compensated)(const void *x, const void *y, size_t n);
 } Api;
 
@@ -67,11 +66,6 @@ static inline int api_central##f(int degree, const void *x, const void *y, size_
 { \
 	return ew_central_moments##f(degree, x, y, n, c, out); \
 } \
-static inline int api_bounded##f(int degree, const void *x, const void *y, size_t n, void *out, \
-	void *bound) \
-{ \
-	return ew_moments_bounded##f(degree, x, y, n, out, bound); \
-} \
 static inline double api_compensated##f(const void *x, const void *y, size_t n) \
 { \
 	return (double)ew_area_compensated##f(x, y, n); \
@@ -82,7 +76,7 @@ RING_FUNCTIONS(float, f)
 
 #define RING_API(REAL, f, bits, denormal) { #REAL, sizeof(REAL), bits, denormal, api_moments##f, \
 	api_about##f, api_xy##f, api_translate##f, api_moment##f, api_area##f, api_centroid##f, \
-	api_central##f, api_bounded##f, api_compensated##f }
+	api_central##f, api_compensated##f }
 
 enum { APIS = 2 };
 
@@ -132,7 +126,8 @@ typedef struct {
 	ew_ring_finish *finish;
 } Shape;
 
-#define RING_SHAPE(id, window, turns, accumulators, outputs, finish) [id] = { window, turns, finish },
+#define RING_SHAPE(id, window, turns, accumulators, outputs, finish) \
+	[id] = { window, turns, finish },
 
 static const Shape ring_shapes[ROWS] = { EW_RINGS_SHAPES(RING_SHAPE) };
 

@@ -707,8 +707,8 @@ static void test_unchanged(const Api *api, const char *target)
 		ring_free(&ring);
 	}
 	check_end();
-	printf("# compensated, %s, %s: other bits in %d of %d rings with a vertex twice, %d closed, "
-		"%d backwards\n", api->name, target, count[0], held, count[1], count[2]);
+	printf("# compensated, %s, %s: other bits in %d of %d rings with a vertex twice, "
+		"%d closed, %d backwards\n", api->name, target, count[0], held, count[1], count[2]);
 	ref_free(exact, 1);
 }
 

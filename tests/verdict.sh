@@ -3,7 +3,7 @@
 # $work is a folder for the suite, removed at its end; $tests and $root are this folder and that of
 # the project.
 # `verdict` and `skip` say what came out of one test, `finish` says the last line of the suite.
-# Tests that ran in a subshell are counted by `replay`, from what it wrote.
+# Tests in a subshell, ( ... ) >FILE, are not counted there but by `replay FILE`.
 
 tests=$(cd "$(dirname "$0")" && pwd)
 root=$(dirname "$tests")

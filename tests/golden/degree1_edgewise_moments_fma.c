@@ -16,24 +16,26 @@
 /* area; scheme vertex.
  * Cost per item: 1 mul or fma, 2 add; 2 accumulators, 4 values alive, depth 2. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_0_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
+		const double cx = origin[lane];
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
-		for (size_t i = lane; i < count; i += 16) {
+		for (size_t i = lane; i < count; i += 2 * step) {
 			{
 				const double y0 = y[i];
-				const double x1 = x[i + 1];
-				const double y2 = y[i + 2];
+				const double x1 = x[i + reach];
+				const double y2 = y[i + 2 * reach];
 				const double width = x1 - cx;
 				const double height = y2 - y0;
 				acc0 = fma(width, height, acc0);
 			}
-			if (count - i > 8) {
-				const double y0 = y[i + 8];
-				const double x1 = x[i + 9];
-				const double y2 = y[i + 10];
+			if (count - i > step) {
+				const double y0 = y[i + step];
+				const double x1 = x[i + step + reach];
+				const double y2 = y[i + step + 2 * reach];
 				const double width = x1 - cx;
 				const double height = y2 - y0;
 				acc1 = fma(width, height, acc1);
@@ -47,18 +49,19 @@ EW_ATTRIBUTE_FMA void ew_ring_moments_0_fma(
 /* all moments of x^m y^n, m + n <= 1; scheme even-power.
  * Cost per item: 4 mul or fma, 4 add; 3 accumulators, 7 values alive, depth 3. */
 EW_ATTRIBUTE_FMA void ew_ring_moments_1_fma(
-	const double *x, const double *y, double cx, size_t count, double *sum)
+	const double *x, const double *y, const double *origin,
+	size_t reach, size_t step, size_t count, double *sum)
 {
-	(void)cx;
-	for (size_t lane = 0; lane < 8 && lane < count; ++lane) {
+	(void)origin;
+	for (size_t lane = 0; lane < step && lane < count; ++lane) {
 		double acc0 = sum[lane];
 		double acc1 = sum[8 + lane];
 		double acc2 = sum[16 + lane];
-		for (size_t i = lane; i < count; i += 8) {
+		for (size_t i = lane; i < count; i += step) {
 			const double x0 = x[i];
 			const double y0 = y[i];
-			const double x1 = x[i + 1];
-			const double y1 = y[i + 1];
+			const double x1 = x[i + reach];
+			const double y1 = y[i + reach];
 			const double t0 = x0 * y1;
 			const double t1 = x1 * y0;
 			const double s = t0 - t1;
