@@ -34,7 +34,7 @@ vertex, index of the height|moments.c|s/VAR_Y0, VAR_Y2, "height"/VAR_Y1, VAR_Y2,
 vertex, factor|moments.c|/"height"/,/^}/s/rat(1, 2)/rat(1, 1)/
 magnitudes, sign at the start|moments.c|s/dag_add(dag, left, right), degree/dag_sub(dag, left, right), degree/
 magnitudes, start of the weights|moments.c|s/r->h\[0\]\[0\] = r->w\[0\]\[0\] = start/r->h[0][0] = start, r->w[0][0] = end.ref[VAR_X0]/
-magnitudes, sign of a width|moments.c|s/dag_mul(dag, dag_abs(dag, width), dag_abs/dag_mul(dag, width, dag_abs/
+magnitudes, sign of a width|moments.c|s/dag_abs(dag, width)/width/
 compensated, product of an error|compensated.c|s/OP_ERROR, x0, y1, left/OP_ERROR, x0, y1, right/
 compensated, sum|compensated.c|s/dag_out(dag, second.sum)/dag_out(dag, first.sum)/
 matrix, end of a power of x|scheme.c|s/axis_part(dag, &end, image, X_VARS/axis_part(dag, \&end, x, X_VARS/
