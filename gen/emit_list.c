@@ -38,6 +38,8 @@ static void add_environment(Text *text, const Request *request)
 		"#elif defined(__GNUC__) && !defined(__TINYC__)\n"
 		"#pragma GCC optimize (\"fp-contract=off\")\n"
 		"#elif defined(_MSC_VER)\n#pragma fp_contract(off)\n#endif\n\n");
+	text_add(text, "#ifdef __cplusplus\n#define EW_CAST(type, value) static_cast<type>(value)\n"
+		"#else\n#define EW_CAST(type, value) ((type)(value))\n#endif\n\n");
 	text_add(text, "/* What compilers must not see through: that accumulators in memory could be in "
 		"registers (they would spill),\n * and that a vector could be loaded a second time "
 		"instead of being kept. */\n"
@@ -107,7 +109,8 @@ static void add_ids(Text *text, const Kernels *kernels)
 	int accumulators = 1, outputs = 1;
 	text_add(text, "\n/* X(id, family, m, n, accumulators, outputs, k, r): all that runs over "
 		"rings. For n items in\n * L lanes |result - exact| <= gamma_K W "
-		"with K = k + r (ceil(n/L) - 1) + log2 L. */\n#define EW_RINGS(X)");
+		"with K = k + r (ceil(n/L) - 1) + log2 L; L is 1 for fewer than 24 vertices. */\n"
+		"#define EW_RINGS(X)");
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
 		text_add(text, " \\\n\tX(%s, %s, %d, %d, %d, %d, %d, %d)", ring_id(ring),

@@ -69,7 +69,7 @@ static void add_rest(const Shape *shape, int turn, const char *suffix)
 	text_add(shape->text, "%sconst size_t rest%s = %s;\n", tab, suffix,
 		turn ? "count - i > step ? count - i - step : 0" : "count - i");
 	if (mask)
-		text_add(shape->text, "%sconst %s mask%s = (%s)(rest%s < %d ? (1u << rest%s) - 1 : "
+		text_add(shape->text, "%sconst %s mask%s = EW_CAST(%s, rest%s < %d ? (1u << rest%s) - 1 : "
 			"0x%xu);\n", tab, mask, suffix, mask, suffix, shape->width, suffix,
 			(1u << shape->width) - 1);
 	else

@@ -75,7 +75,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y0_avx512(
 		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
-				const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+				const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 				const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 				const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
 				const __m512d y2 = _mm512_maskz_loadu_pd(mask, y + i + 2 * reach);
@@ -85,7 +85,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y0_avx512(
 			}
 			{
 				const size_t rest = count - i > step ? count - i - step : 0;
-				const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+				const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 				const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i + step);
 				const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + step + reach);
 				const __m512d y2 = _mm512_maskz_loadu_pd(mask, y + i + step + 2 * reach);
@@ -143,7 +143,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y0_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -202,7 +202,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y1_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -265,7 +265,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y0_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -308,7 +308,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y1_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -374,7 +374,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y2_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -443,7 +443,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y0_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -495,7 +495,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y1_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -553,7 +553,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y2_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -630,7 +630,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y3_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -678,7 +678,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x4y0_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -733,7 +733,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y1_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -797,7 +797,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y2_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -861,7 +861,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y3_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -916,7 +916,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y4_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -968,7 +968,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x5y0_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1030,7 +1030,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x4y1_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1103,7 +1103,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y2_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1179,7 +1179,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y3_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1252,7 +1252,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y4_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1314,7 +1314,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y5_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1370,7 +1370,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x6y0_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1436,7 +1436,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x5y1_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1515,7 +1515,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x4y2_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1601,7 +1601,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y3_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1687,7 +1687,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y4_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1766,7 +1766,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y5_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1832,7 +1832,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y6_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1892,7 +1892,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x7y0_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1972,7 +1972,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x6y1_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -2074,7 +2074,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x5y2_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -2184,7 +2184,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x4y3_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -2298,7 +2298,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y4_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -2408,7 +2408,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y5_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -2510,7 +2510,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y6_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -2590,7 +2590,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y7_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);

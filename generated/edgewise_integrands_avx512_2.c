@@ -50,7 +50,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x8y0_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -137,7 +137,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x7y1_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -252,7 +252,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x6y2_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -377,7 +377,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x5y3_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -506,7 +506,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x4y4_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -635,7 +635,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y5_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -760,7 +760,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y6_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -875,7 +875,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y7_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -962,7 +962,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y8_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);

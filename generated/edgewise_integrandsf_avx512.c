@@ -75,7 +75,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y0f_avx512(
 		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
-				const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+				const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 				const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 				const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
 				const __m512 y2 = _mm512_maskz_loadu_ps(mask, y + i + 2 * reach);
@@ -85,7 +85,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y0f_avx512(
 			}
 			{
 				const size_t rest = count - i > step ? count - i - step : 0;
-				const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+				const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 				const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i + step);
 				const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + step + reach);
 				const __m512 y2 = _mm512_maskz_loadu_ps(mask, y + i + step + 2 * reach);
@@ -143,7 +143,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y0f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -202,7 +202,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y1f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -265,7 +265,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y0f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -308,7 +308,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y1f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -374,7 +374,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y2f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -443,7 +443,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y0f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -495,7 +495,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y1f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -553,7 +553,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y2f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -630,7 +630,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y3f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -678,7 +678,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x4y0f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -734,7 +734,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y1f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -799,7 +799,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y2f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -864,7 +864,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y3f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -920,7 +920,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y4f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -972,7 +972,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x5y0f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1036,7 +1036,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x4y1f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1113,7 +1113,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y2f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1193,7 +1193,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y3f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1270,7 +1270,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y4f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1334,7 +1334,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y5f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1390,7 +1390,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x6y0f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1459,7 +1459,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x5y1f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1546,7 +1546,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x4y2f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1639,7 +1639,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y3f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1732,7 +1732,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y4f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1819,7 +1819,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y5f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1888,7 +1888,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y6f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1948,7 +1948,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x7y0f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -2028,7 +2028,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x6y1f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -2135,7 +2135,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x5y2f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -2252,7 +2252,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x4y3f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -2370,7 +2370,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y4f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -2486,7 +2486,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y5f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -2592,7 +2592,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y6f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -2672,7 +2672,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y7f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);

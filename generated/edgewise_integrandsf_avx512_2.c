@@ -50,7 +50,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x8y0f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -137,7 +137,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x7y1f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -259,7 +259,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x6y2f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -396,7 +396,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x5y3f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -530,7 +530,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x4y4f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -664,7 +664,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x3y5f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -801,7 +801,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x2y6f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -923,7 +923,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x1y7f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1010,7 +1010,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_x0y8f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);

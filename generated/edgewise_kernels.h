@@ -30,6 +30,12 @@
 #pragma fp_contract(off)
 #endif
 
+#ifdef __cplusplus
+#define EW_CAST(type, value) static_cast<type>(value)
+#else
+#define EW_CAST(type, value) ((type)(value))
+#endif
+
 /* What compilers must not see through: that accumulators in memory could be in registers (they would spill),
  * and that a vector could be loaded a second time instead of being kept. */
 #if defined(__GNUC__) || defined(__clang__)
@@ -182,7 +188,7 @@
 	X(0, 8, ew_line_x0y8f, 17)
 
 /* X(id, family, m, n, accumulators, outputs, k, r): all that runs over rings. For n items in
- * L lanes |result - exact| <= gamma_K W with K = k + r (ceil(n/L) - 1) + log2 L. */
+ * L lanes |result - exact| <= gamma_K W with K = k + r (ceil(n/L) - 1) + log2 L; L is 1 for fewer than 24 vertices. */
 #define EW_RINGS(X) \
 	X(EW_RING_MOMENTS_0, moments, 0, 0, 2, 1, 5, 1) \
 	X(EW_RING_MOMENTS_1, moments, 1, 0, 3, 3, 7, 1) \

@@ -75,7 +75,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_0_avx512(
 		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
-				const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+				const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 				const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 				const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
 				const __m512d y2 = _mm512_maskz_loadu_pd(mask, y + i + 2 * reach);
@@ -85,7 +85,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_0_avx512(
 			}
 			{
 				const size_t rest = count - i > step ? count - i - step : 0;
-				const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+				const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 				const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i + step);
 				const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + step + reach);
 				const __m512d y2 = _mm512_maskz_loadu_pd(mask, y + i + step + 2 * reach);
@@ -151,7 +151,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_1_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -212,7 +212,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_2_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -309,7 +309,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_3_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -453,7 +453,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_4_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -754,7 +754,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_5_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1182,7 +1182,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_6_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1741,7 +1741,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_7_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -2450,7 +2450,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_8_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);

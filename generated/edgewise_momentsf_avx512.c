@@ -75,7 +75,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_0f_avx512(
 		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
-				const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+				const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 				const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 				const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
 				const __m512 y2 = _mm512_maskz_loadu_ps(mask, y + i + 2 * reach);
@@ -85,7 +85,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_0f_avx512(
 			}
 			{
 				const size_t rest = count - i > step ? count - i - step : 0;
-				const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+				const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 				const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i + step);
 				const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + step + reach);
 				const __m512 y2 = _mm512_maskz_loadu_ps(mask, y + i + step + 2 * reach);
@@ -151,7 +151,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_1f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -212,7 +212,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_2f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -309,7 +309,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_3f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -453,7 +453,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_4f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -754,7 +754,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_5f_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1182,7 +1182,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_6f_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1741,7 +1741,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_7f_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -2450,7 +2450,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_moments_8f_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);

@@ -83,7 +83,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_0_avx512(
 		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
-				const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+				const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 				const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 				const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
 				const __m512d y2 = _mm512_maskz_loadu_pd(mask, y + i + 2 * reach);
@@ -95,7 +95,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_0_avx512(
 			}
 			{
 				const size_t rest = count - i > step ? count - i - step : 0;
-				const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+				const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 				const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i + step);
 				const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + step + reach);
 				const __m512d y2 = _mm512_maskz_loadu_pd(mask, y + i + step + 2 * reach);
@@ -169,7 +169,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_1_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -236,7 +236,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_2_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -335,7 +335,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_3_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -478,7 +478,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_4_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -785,7 +785,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_5_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1222,7 +1222,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_6_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -1790,7 +1790,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_7_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);
@@ -2508,7 +2508,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_8_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);

@@ -90,7 +90,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_compensated_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask8 mask = (__mmask8)(rest < 8 ? (1u << rest) - 1 : 0xffu);
+			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
 			const __m512d y0 = _mm512_maskz_loadu_pd(mask, y + i);
 			const __m512d x1 = _mm512_maskz_loadu_pd(mask, x + i + reach);

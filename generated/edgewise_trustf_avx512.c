@@ -83,7 +83,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_0f_avx512(
 		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
-				const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+				const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 				const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 				const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
 				const __m512 y2 = _mm512_maskz_loadu_ps(mask, y + i + 2 * reach);
@@ -95,7 +95,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_0f_avx512(
 			}
 			{
 				const size_t rest = count - i > step ? count - i - step : 0;
-				const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+				const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 				const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i + step);
 				const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + step + reach);
 				const __m512 y2 = _mm512_maskz_loadu_ps(mask, y + i + step + 2 * reach);
@@ -169,7 +169,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_1f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -236,7 +236,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_2f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -335,7 +335,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_3f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -478,7 +478,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_4f_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -785,7 +785,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_5f_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1222,7 +1222,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_6f_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -1790,7 +1790,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_7f_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);
@@ -2508,7 +2508,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_magnitudes_8f_avx512(
 		for (; i < count; i += step) {
 			EW_HIDE(sum);
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);

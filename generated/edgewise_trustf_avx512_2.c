@@ -90,7 +90,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_compensatedf_avx512(
 		}
 		for (; i < count; i += step) {
 			const size_t rest = count - i;
-			const __mmask16 mask = (__mmask16)(rest < 16 ? (1u << rest) - 1 : 0xffffu);
+			const __mmask16 mask = EW_CAST(__mmask16, rest < 16 ? (1u << rest) - 1 : 0xffffu);
 			const __m512 x0 = _mm512_maskz_loadu_ps(mask, x + i);
 			const __m512 y0 = _mm512_maskz_loadu_ps(mask, y + i);
 			const __m512 x1 = _mm512_maskz_loadu_ps(mask, x + i + reach);

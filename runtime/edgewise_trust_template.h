@@ -16,7 +16,8 @@ static double EW_LOCAL(sum_roundings)(const ew_ring_shape *shape, size_t n, int 
 	const size_t items = EW_IS_FLOAT && n > EW_BLOCK ? (size_t)EW_BLOCK : n;
 	const double steps = (double)((items + lanes - 1) / lanes);
 	const double wide = (double)(n / EW_BLOCK) + 5;
-	return r * (steps - 1) + (EW_IS_FLOAT ? wide * 0x1p-29 : 3);
+	const double halvings = n < EW_SHORT ? 0 : 3;
+	return r * (steps - 1) + (EW_IS_FLOAT ? wide * 0x1p-29 : halvings);
 }
 
 /* sup of gamma_k, or infinity where it means nothing. */
