@@ -34,8 +34,8 @@ static const Entry rings[] = {
 	"All moments M_mn = integral of x^m y^n over the region inside one ring, m + n <= degree, "
 	"about (0,0). out[EW_INDEX(m, n)] = M_mn, EW_MOMENTS(degree) values; unit: "
 	"coordinate^(m+n+2). EW_BAD_DEGREE leaves out untouched. Error: gamma_K times the same sum "
-	"with every term positive, K = k + r (max(ceil(n/8), 23) - 1) + 3, k and r (\"repeat\") from the "
-	"manifest (float: at most k + 63 r + 5, because 16 lanes are flushed to double every 1024 "
+	"with every term positive, K = k + r (max(ceil(n/8), 23) - 1) + 3, k and r (\"repeat\") "
+	"from the manifest (float: at most k + 63 r + 5, because 16 lanes are flushed to double every 1024 "
 	"edges); degree 0 is computed and bounded as ew_area. Far from the origin the terms are "
 	"large and cancel: use ew_moments_about or ew_central_moments there. "
 	"Source: Green's theorem; Steger 1996.",
