@@ -9,7 +9,7 @@
 # (address and undefined-behaviour sanitizers)
 
 CC     ?= cc
-CFLAGS ?= -O2 -g
+CFLAGS ?= -O2
 B      ?= build
 DEGREE := 8
 STRICT := -Wall -Wextra -Wpedantic -Wconversion -Wshadow
