@@ -124,7 +124,7 @@ Bound *bound_ring(const Dag *dag, const Dag *finish, const Integral *want, int c
 	const Weight *result = weights(finish, value);
 	for (int j = 0; j < count; ++j) {
 		Weight final = result[finish->out[j]];
-		bound[j].k = ratio(final, dag->window == 2 ? want[j].magnitude : final.s);
+		bound[j].k = ratio(final, dag->window != WINDOW_VERTEX ? want[j].magnitude : final.s);
 		for (int i = 0; i < dag->finish[j].count; ++i) {
 			int again = repeat[mono_accumulator_of(dag->finish[j].term[i].mono)];
 			bound[j].repeat = again > bound[j].repeat ? again : bound[j].repeat;

@@ -13,10 +13,11 @@
 
 #include <string.h>
 
-#define OP(name, operands, fma, add, c, x86, neon) { #name, operands, fma, add, { c, x86, neon } },
+#define OP(name, operands, commutes, fma, add, divide, c, x86, neon) \
+	{ #name, operands, commutes, fma, add, divide, { c, x86, neon } },
 static const struct {
 	const char *name;
-	int operands, fma, add;
+	int operands, commutes, fma, add, divide;
 	const char *text[SPELLINGS];
 } ops[OPS] = {
 #include "ops.def"
@@ -38,6 +39,16 @@ int op_add_cost(int op)
 	return ops[op].add;
 }
 
+int op_divide_cost(int op)
+{
+	return ops[op].divide;
+}
+
+int op_commutes(int op)
+{
+	return ops[op].commutes;
+}
+
 const char *op_name(int op)
 {
 	return ops[op].name;
@@ -52,7 +63,7 @@ Dag *dag_new(const char *scheme)
 {
 	Dag *dag = allocate(sizeof *dag);
 	dag->scheme = scheme;
-	dag->window = 2;
+	dag->window = WINDOW_LINE;
 	dag->turns = 1;
 	dag->room = 64;
 	dag->node = allocate((size_t)dag->room * sizeof *dag->node);
@@ -61,6 +72,17 @@ Dag *dag_new(const char *scheme)
 	dag->bucket = allocate((size_t)dag->buckets * sizeof *dag->bucket);
 	memset(dag->bucket, 0xff, (size_t)dag->buckets * sizeof *dag->bucket);
 	return dag;
+}
+
+int window_points(int window)
+{
+	static const int points[WINDOWS] = { 2, 3, 3, 3, 4 };
+	return points[window];
+}
+
+int window_planes(int window)
+{
+	return window_points(window) + (window == WINDOW_CONIC);
 }
 
 static uint64_t node_hash(const Node *node)
@@ -119,7 +141,7 @@ static Ref intern(Dag *dag, Node node)
 
 Ref dag_node(Dag *dag, int op, Ref a, Ref b, Ref c)
 {
-	if (op_operands(op) >= 2 && op != OP_SUB && a > b) {   /* a b = b a, a + b = b + a */
+	if (op_commutes(op) && a > b) {        /* a b = b a, a + b = b + a */
 		Ref swap = a;
 		a = b;
 		b = swap;
@@ -175,9 +197,14 @@ Ref dag_mul(Dag *dag, Ref a, Ref b)
 	return is_one(dag, b) ? a : dag_node(dag, OP_MUL, a, b, NONE);
 }
 
-Ref dag_abs(Dag *dag, Ref a)
+Ref dag_unary(Dag *dag, int op, Ref a)
 {
-	return dag_node(dag, OP_ABS, a, NONE, NONE);
+	return dag_node(dag, op, a, NONE, NONE);
+}
+
+Ref dag_choose(Dag *dag, Ref a, Ref positive, Ref otherwise)
+{
+	return dag_node(dag, OP_CHOOSE, a, positive, otherwise);
 }
 
 Ref dag_scale(Dag *dag, Rat factor, Ref a)
@@ -231,6 +258,10 @@ Poly dag_expand_node(const Node *node, const Poly *done)
 	case OP_ADD:   return poly_add(a, b);
 	case OP_SUB:   return poly_sub(a, b);
 	case OP_MUL:   return poly_mul(a, b);
+	case OP_DIV:
+		if (b.count == 1 && b.term[0].mono == 0)
+			return poly_scale(a, rat_div(rat(1, 1), b.term[0].coef));
+		break;
 	case OP_ABS:   return poly_abs(a);
 	case OP_FMA:   return poly_add(poly_mul(a, b), c);
 	case OP_ERROR:
@@ -249,32 +280,54 @@ Poly *dag_expand(const Dag *dag)
 	return poly;
 }
 
+/* The same coordinate of the curve that runs backwards. */
+static Ref mirrored_input(Dag *dag, Mono input)
+{
+	const int points = window_points(dag->window);
+	for (int var = VAR_X0; var < VAR_X0 + 2 * points; ++var)
+		if (input == mono_var(var, 1)) {
+			int point = (var - VAR_X0) / 2, axis = (var - VAR_X0) % 2;
+			return dag_var(dag, VAR_X0 + 2 * (points - 1 - point) + axis);
+		}
+	return input == mono_var(VAR_W, 1) ? dag_var(dag, VAR_W) : NONE;
+}
+
+/* The sign of an operation on operands with these signs, 0 if it does not just change sign. */
+static int sign_of(int op, int a, int b, int c)
+{
+	switch (op) {
+	case OP_ADD:
+	case OP_SUB:    return a == b ? a : 0;
+	case OP_MUL:
+	case OP_DIV:    return a * b;
+	case OP_ERROR:
+	case OP_FMA:
+	case OP_FMS:    return a * b == c ? c : 0;
+	case OP_CHOOSE: return a > 0 && b == c ? b : 0;
+	case OP_ABS:    return 1;
+	}
+	return a > 0 && b > 0 ? 1 : 0;
+}
+
 /* The node that computes the mirror image of `node`, up to the sign it returns;
  * NONE if there is none. */
 static Ref mirror(Dag *dag, const Node *node, const Ref *image, const int *sign, int *result_sign)
 {
-	static const int swapped[VARS] = {
-		[VAR_X0] = VAR_X1, [VAR_X1] = VAR_X0, [VAR_Y0] = VAR_Y1, [VAR_Y1] = VAR_Y0
-	};
+	Ref arg[3] = { NONE, NONE, NONE };
+	int s[3] = { 1, 1, 1 };
 	*result_sign = 1;
 	if (node->op == OP_CONST)
 		return dag_const(dag, node->value);
-	if (node->op == OP_INPUT) {
-		for (int var = VAR_X0; var <= VAR_Y1; ++var)
-			if (node->input == mono_var(var, 1))
-				return dag_var(dag, swapped[var]);
-		return NONE;
+	if (node->op == OP_INPUT)
+		return mirrored_input(dag, node->input);
+	for (int k = 0; k < op_operands(node->op); ++k) {
+		arg[k] = image[node->arg[k]];
+		s[k] = sign[node->arg[k]];
+		if (arg[k] == NONE)
+			return NONE;
 	}
-	if (op_operands(node->op) != 2)
-		return NONE;
-	Ref a = image[node->arg[0]], b = image[node->arg[1]];
-	int sa = sign[node->arg[0]], sb = sign[node->arg[1]];
-	if (a == NONE || b == NONE)
-		return NONE;
-	*result_sign = node->op == OP_MUL ? sa * sb : sa;
-	if (node->op != OP_MUL && sa != sb)
-		return NONE;
-	return dag_node(dag, node->op, a, b, NONE);
+	*result_sign = sign_of(node->op, s[0], s[1], s[2]);
+	return *result_sign ? dag_node(dag, node->op, arg[0], arg[1], arg[2]) : NONE;
 }
 
 int dag_reverses(Dag *dag)

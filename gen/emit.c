@@ -11,8 +11,21 @@
 #include <string.h>
 
 const Load loads[LOADS] = {
-	{ "x0", "x", 0, 2 }, { "y0", "y", 0, 2 }, { "x1", "x", 1, 2 }, { "y1", "y", 1, 2 },
-	{ "y0", "y", 0, 3 }, { "x1", "x", 1, 3 }, { "y2", "y", 2, 3 },
+	{ "x0", "x", 0, WINDOW_LINE }, { "y0", "y", 0, WINDOW_LINE },
+	{ "x1", "x", 1, WINDOW_LINE }, { "y1", "y", 1, WINDOW_LINE },
+	{ "y0", "y", 0, WINDOW_VERTEX }, { "x1", "x", 1, WINDOW_VERTEX },
+	{ "y2", "y", 2, WINDOW_VERTEX },
+	{ "x0", "x", 0, WINDOW_QUAD }, { "y0", "y", 0, WINDOW_QUAD },
+	{ "x1", "x", 1, WINDOW_QUAD }, { "y1", "y", 1, WINDOW_QUAD },
+	{ "x2", "x", 2, WINDOW_QUAD }, { "y2", "y", 2, WINDOW_QUAD },
+	{ "x0", "x", 0, WINDOW_CONIC }, { "y0", "y", 0, WINDOW_CONIC },
+	{ "x1", "x", 1, WINDOW_CONIC }, { "y1", "y", 1, WINDOW_CONIC },
+	{ "x2", "x", 2, WINDOW_CONIC }, { "y2", "y", 2, WINDOW_CONIC },
+	{ "w", "x", 3, WINDOW_CONIC },
+	{ "x0", "x", 0, WINDOW_CUBIC }, { "y0", "y", 0, WINDOW_CUBIC },
+	{ "x1", "x", 1, WINDOW_CUBIC }, { "y1", "y", 1, WINDOW_CUBIC },
+	{ "x2", "x", 2, WINDOW_CUBIC }, { "y2", "y", 2, WINDOW_CUBIC },
+	{ "x3", "x", 3, WINDOW_CUBIC }, { "y3", "y", 3, WINDOW_CUBIC },
 };
 
 static const Vector avx2 = {
@@ -196,7 +209,7 @@ static void name_values(Printer *printer)
 
 char *emit_place(const Load *load, int turn)
 {
-	static const char *const ahead[] = { "", " + reach", " + 2 * reach" };
+	static const char *const ahead[] = { "", " + reach", " + 2 * reach", " + 3 * reach" };
 	return format("i%s%s", turn ? " + step" : "", ahead[load->ahead]);
 }
 
@@ -240,7 +253,7 @@ static char *operand(const Printer *printer, Ref ref, int parent)
  * addition and multiplication commute bit for bit. */
 static int reads_better_swapped(const Printer *printer, const Node *node)
 {
-	if (op_operands(node->op) < 2 || node->op == OP_SUB)
+	if (!op_commutes(node->op))
 		return 0;
 	const Node *a = &printer->program->dag->node[node->arg[0]];
 	const Node *b = &printer->program->dag->node[node->arg[1]];

@@ -132,7 +132,7 @@ static void add_ids(Text *text, const Kernels *kernels)
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
 		text_add(text, " \\\n\tX(%s, %d, %d, %d, %d, ew_ring_%s_finish)", ring_id(ring),
-			ring->window, ring->turns, ring->accumulators, ring->outputs,
+			window_planes(ring->window), ring->turns, ring->accumulators, ring->outputs,
 			ring->name);
 	}
 	text_add(text, "\n\n/* X(m, n, id): single moments */\n%s#define EW_MONOMIALS(X)",
@@ -209,7 +209,7 @@ static void add_items(Text *text, const Kernels *kernels)
 			continue;
 		text_add(text, "#define EW_SUMS_%d %d\n", ring->m, ring->accumulators);
 		text_add(text, "#define EW_NEXT_%d(item, k) item(%s, cx, %s)\n", ring->m,
-			ring->window == 3 ? "qy, px, vy" : "px, py, vx, vy",
+			ring->window == WINDOW_VERTEX ? "qy, px, vy" : "px, py, vx, vy",
 			ring->turns == 1 ? "acc" : format("acc + (k) %% %d * %d",
 				ring->turns, ring->accumulators / ring->turns));
 	}
@@ -377,7 +377,8 @@ static void add_rings(Text *text, const Request *request, const Kernels *kernels
 		const Ring *ring = &kernels->ring[i];
 		text_add(text, "%s\n  {\"ring\": \"%s\", \"family\": \"%s\", \"scheme\": \"%s\", "
 			"\"window\": %d, \"turns\": %d, \"accumulators\": %d, \"outputs\": %d",
-			i ? "," : "", ring->name, ring->family, ring->scheme, ring->window,
+			i ? "," : "", ring->name, ring->family, ring->scheme,
+			window_planes(ring->window),
 			ring->turns, ring->accumulators,
 			ring->outputs);
 		add_count(text, "portable", &ring->portable);

@@ -91,7 +91,7 @@ static void add_kernel(Text *text, const Ring *ring, const Target *target,
 		text_add(text, "%s ", target->attribute);
 	add_signature(text, ring, target, precision);
 	text_add(text, "\n{\n");
-	if (ring->window == 2)
+	if (ring->window != WINDOW_VERTEX)
 		text_add(text, "\t(void)origin;\n");
 	if (target->vector) {
 		emit_vector_body(text, ring, target, precision);
@@ -99,7 +99,7 @@ static void add_kernel(Text *text, const Ring *ring, const Target *target,
 		return;
 	}
 	text_add(text, "\tfor (size_t lane = 0; lane < step && lane < count; ++lane) {\n");
-	if (ring->window == 3)
+	if (ring->window == WINDOW_VERTEX)
 		text_add(text, "\t\tconst %s cx = origin[lane];\n", precision->real);
 	for (int k = 0; k < ring->accumulators; ++k)
 		text_add(text, "\t\t%s acc%d = %s;\n", precision->real, k, lane_sum(k, precision));

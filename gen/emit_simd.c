@@ -164,7 +164,7 @@ static void add_carried(Shape *shape)
 {
 	const int turns = shape->ring->turns, span = (turns + 1) * shape->width;
 	Text *text = shape->text;
-	char *whole = format("i + %d < count + %d", span, shape->ring->window);
+	char *whole = format("i + %d < count + %d", span, window_planes(shape->ring->window));
 	text_add(text, "\t\tif (reach == 1 && step == %d && %s) {\n", shape->width, whole);
 	for (const char *axis = "xy"; *axis; ++axis)
 		text_add(text, "\t\t\t%s %ca = %s;\n", shape->type, *axis,
@@ -243,7 +243,7 @@ void emit_vector_item(Text *text, const Ring *ring, const Target *target,
 		if (loads[i].window == ring->window)
 			text_add(text, "%s %s, ", type, loads[i].name);
 	text_add(text, "\n\t%s cx, %s *acc)\n{\n", type, type);
-	if (ring->window == 2)
+	if (ring->window != WINDOW_VERTEX)
 		text_add(text, "\t(void)cx;\n");
 	emit_program(text, &ring->fused, &style);
 	text_add(text, "}\n");
@@ -262,7 +262,7 @@ void emit_vector_body(Text *text, const Ring *ring, const Target *target,
 		&& ring->fused.cost.fma >= MANY_OPERATIONS
 		&& ring->accumulators + ring->fused.live > vector->registers;
 	text_add(text, "\tfor (size_t pass = 0; pass < step && pass < count; pass += %d) {\n", width);
-	if (ring->window == 3)
+	if (ring->window == WINDOW_VERTEX)
 		text_add(text, "\t\tconst %s cx = %s;\n", shape.type,
 			load(&shape, format("origin + pass")));
 	if (stored)

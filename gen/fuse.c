@@ -31,8 +31,6 @@ static Ref fuse_node(const Fusion *f, const Node *node)
 		return dag_input(f->to, node->input);
 	if (node->op == OP_CONST)
 		return dag_const(f->to, node->value);
-	if (node->op == OP_ABS)
-		return dag_abs(f->to, f->map[a]);
 	if (node->op == OP_ERROR)
 		return dag_node(f->to, OP_FMS, f->map[a], f->map[b], f->map[node->arg[2]]);
 	if (node->op == OP_ADD && only_here(f, b))
@@ -41,7 +39,10 @@ static Ref fuse_node(const Fusion *f, const Node *node)
 		return fused(f, OP_FMA, a, b);
 	if (node->op == OP_SUB && only_here(f, a) && !is_product(f, b))
 		return fused(f, OP_FMS, a, b);
-	return dag_node(f->to, node->op, f->map[a], f->map[b], NONE);
+	Ref arg[3] = { NONE, NONE, NONE };
+	for (int k = 0; k < op_operands(node->op); ++k)
+		arg[k] = f->map[node->arg[k]];
+	return dag_node(f->to, node->op, arg[0], arg[1], arg[2]);
 }
 
 Dag *fuse(const Dag *dag)

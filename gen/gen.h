@@ -73,6 +73,7 @@ char *rat_literal(Rat a, int is_float);      /* C literal of the nearest value, 
 enum { VAR_X, VAR_Y,                         /* integrand */
        VAR_X0, VAR_Y0, VAR_X1, VAR_Y1,       /* vertices of the window */
        VAR_X2, VAR_Y2, VAR_X3, VAR_Y3,
+       VAR_W,                                /* weight of a conic */
        VAR_CX,                               /* abscissa of the local origin */
        VAR_S, VAR_T,                         /* Bernstein parameters of an edge, s = 1 - t */
        VARS };
@@ -153,11 +154,16 @@ Integral green_line(Poly integrand);
 
 typedef uint32_t Ref;                        /* index of a node; children are smaller */
 #define NONE UINT32_MAX
-#define OP(name, operands, fma, add, c, x86, neon) OP_##name,
+#define OP(name, operands, commutes, fma, add, divide, c, x86, neon) OP_##name,
 enum {
 #include "ops.def"
 	OPS };
 #undef OP
+
+/* What an item of a kernel reads: the points of an edge, or a vertex between its neighbours. */
+enum { WINDOW_LINE, WINDOW_VERTEX, WINDOW_QUAD, WINDOW_CONIC, WINDOW_CUBIC, WINDOWS };
+int  window_points(int window);
+int  window_planes(int window);              /* arrays of coordinates: the weight is one more */
 
 typedef struct {
 	unsigned char op;
@@ -175,12 +181,14 @@ typedef struct {
 	const char *scheme;                  /* name of the scheme that built it */
 	int   turns;                         /* sets of accumulators that the items of a lane take
 	                                      * in turn, to hide the latency of one */
-	int   window;                        /* vertices an item reads: 2 edge, 3 vertex form */
+	int   window;
 } Dag;
 
 int  op_operands(int op);
 int  op_fma_cost(int op);
 int  op_add_cost(int op);
+int  op_divide_cost(int op);
+int  op_commutes(int op);                    /* do its first two operands? */
 const char *op_name(int op);
 enum { SPELL_C, SPELL_X86, SPELL_NEON, SPELLINGS };
 const char *op_spelling(int op, int how);    /* how: a column of ops.def */
@@ -195,7 +203,8 @@ Ref  dag_add(Dag *dag, Ref a, Ref b);        /* the smart constructors drop 0 an
 Ref  dag_sub(Dag *dag, Ref a, Ref b);
 Ref  dag_mul(Dag *dag, Ref a, Ref b);
 Ref  dag_scale(Dag *dag, Rat factor, Ref a);
-Ref  dag_abs(Dag *dag, Ref a);
+Ref  dag_unary(Dag *dag, int op, Ref a);
+Ref  dag_choose(Dag *dag, Ref a, Ref positive, Ref otherwise);   /* by the sign of a */
 Ref  dag_name(Dag *dag, Ref a, const char *name);   /* the first name given stays; returns a */
 void dag_out(Dag *dag, Ref root);
 void dag_accumulate(Dag *dag, Ref value);    /* next accumulator += value */
@@ -251,7 +260,8 @@ Dag *compensated_area(void);
 
 /* ---- scheme.c: ways to evaluate, and the choice by cost -------------------------------------- */
 
-typedef struct { int fma, add, mul; } Count; /* FMA pipe (mul included), adder; mul alone */
+/* On the FMA pipe (mul included), adder, divider (square roots too); mul alone. */
+typedef struct { int fma, add, divide, mul; } Count;
 
 Dag *scheme_edge(const Integral *want);      /* one edge by the matrix, ends interchangeable */
 /* Accumulators of a ring: the preferred scheme if it applies, else the cheapest. */
@@ -344,7 +354,7 @@ extern const int precision_count;
 
 /* What an item of a ring reads: name = array[i + ahead * reach], for programs with this window. */
 typedef struct { const char *name, *array; int ahead, window; } Load;
-enum { LOADS = 7 };
+enum { LOADS = 28 };
 extern const Load loads[LOADS];
 
 typedef struct {                             /* how a program is written */

@@ -34,13 +34,13 @@ static void finish_next(Dag *dag, int m, int n, Rat factor)
 static Dag *vertex_form(Rat value, int magnitude)
 {
 	Dag *dag = dag_new("vertex");
-	dag->window = 3;
+	dag->window = WINDOW_VERTEX;
 	dag->turns = 2;
 	Ref width = difference_of(dag, VAR_CX, VAR_X1, "width");
 	Ref height = difference_of(dag, VAR_Y0, VAR_Y2, "height");
 	if (magnitude) {
-		width = dag_abs(dag, width);
-		height = dag_abs(dag, height);
+		width = dag_unary(dag, OP_ABS, width);
+		height = dag_unary(dag, OP_ABS, height);
 	}
 	finish_room(dag, 0);
 	finish_next(dag, 0, 0, rat_mul(value, rat(1, 2)));
@@ -283,7 +283,7 @@ Dag *moments_magnitudes(int degree)
 	Dag *dag = dag_new("recurrence");
 	Leaves end = ends(dag);
 	for (int var = VAR_X0; var <= VAR_Y1; ++var)
-		end.ref[var] = dag_abs(dag, end.ref[var]);
+		end.ref[var] = dag_unary(dag, OP_ABS, end.ref[var]);
 	Ref left = dag_mul(dag, end.ref[VAR_X0], end.ref[VAR_Y1]);
 	Ref right = dag_mul(dag, end.ref[VAR_X1], end.ref[VAR_Y0]);
 	return recurrence(dag, end, dag_add(dag, left, right), degree);

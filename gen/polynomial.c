@@ -15,7 +15,7 @@ enum { BITS = 8, ACCUMULATOR = BITS * VARS };
 const char *var_name(int var)
 {
 	static const char *const names[VARS] = {
-		"x", "y", "x0", "y0", "x1", "y1", "x2", "y2", "x3", "y3", "cx", "s", "t"
+		"x", "y", "x0", "y0", "x1", "y1", "x2", "y2", "x3", "y3", "w", "cx", "s", "t"
 	};
 	return names[var];
 }

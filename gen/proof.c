@@ -74,13 +74,11 @@ static void prove(const Poly *poly, const Dag *dag, const Integral *want, int co
 		Poly have = dag->finishes ? finished(dag->finish[j], value) : value[j];
 		if (poly_equal(have, want[j].value))
 			continue;
-		if (dag->window == 2)
+		if (dag->window != WINDOW_VERTEX)
 			disprove(pass, j, have, want[j].value);
-		if (dag->window == 3) {
-			Poly edge = rename_vertices(rename_vertices(want[j].value, 1, 2), 0, 1);
-			if (!telescopes(poly_sub(have, edge)))
-				disprove(pass, j, have, edge);
-		}
+		Poly edge = rename_vertices(rename_vertices(want[j].value, 1, 2), 0, 1);
+		if (!telescopes(poly_sub(have, edge)))
+			disprove(pass, j, have, edge);
 	}
 }
 

@@ -85,6 +85,7 @@ static void measure(Program *program)
 			program->depth = depth[ref];
 		program->cost.fma += op_fma_cost(node->op);
 		program->cost.add += op_add_cost(node->op);
+		program->cost.divide += op_divide_cost(node->op);
 		if (node->op != OP_FMA && node->op != OP_FMS)
 			program->cost.mul += op_fma_cost(node->op);
 	}

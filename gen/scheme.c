@@ -31,7 +31,7 @@ const char *const *scheme_names(void)
 
 static Count dag_count(const Dag *dag)
 {
-	Count count = { 0, 0, 0 };
+	Count count = { 0 };
 	const int *uses = dag_uses(dag);
 	for (int i = 0; i < dag->count; ++i) {
 		if (uses[i] == 0)
