@@ -89,6 +89,31 @@ static int ratio(Weight weight, Poly magnitude)
 	return k < WORTHLESS ? (int)k : WORTHLESS;
 }
 
+Bound bound_path(const Dag *dag)
+{
+	const int *uses = dag_uses(dag);
+	int *depth = allocate((size_t)dag->count * sizeof *depth);
+	Bound bound = { 0, dag->finishes > 0 };
+	for (int i = 0; i < dag->count; ++i) {
+		const Node *node = &dag->node[i];
+		if (!uses[i] || op_operands(node->op) == 0) {
+			depth[i] = node->op == OP_CONST ? constant(node->value).depth : 0;
+			continue;
+		}
+		int a = depth[node->arg[0]];
+		int b = op_operands(node->op) > 1 ? depth[node->arg[1]] : 0;
+		if (node->op == OP_MUL || node->op == OP_DIV)
+			depth[i] = a + b + !(is_power_of_two(&dag->node[node->arg[0]])
+				|| is_power_of_two(&dag->node[node->arg[1]]));
+		else
+			depth[i] = (a > b ? a : b) + 1;
+	}
+	for (int k = 0; k < dag->outs; ++k)
+		bound.k = depth[dag->out[k]] > bound.k ? depth[dag->out[k]] : bound.k;
+	bound.k += dag->finishes > 0;                 /* the factor of the finish */
+	return bound;
+}
+
 Bound bound_edge(const Dag *dag, const Integral *want)
 {
 	Mark mark = arena_mark();

@@ -318,6 +318,10 @@ static Ref mirror(Dag *dag, const Node *node, const Ref *image, const int *sign,
 	*result_sign = 1;
 	if (node->op == OP_CONST)
 		return dag_const(dag, node->value);
+	if (node->op == OP_INPUT && mono_accumulator_of(node->input) >= 0) {
+		*result_sign = -1;             /* it was negative all along */
+		return dag_input(dag, node->input);
+	}
 	if (node->op == OP_INPUT)
 		return mirrored_input(dag, node->input);
 	for (int k = 0; k < op_operands(node->op); ++k) {
@@ -338,12 +342,13 @@ int dag_reverses(Dag *dag)
 	for (int i = 0; i < count; ++i) {
 		Node node = dag->node[i];
 		image[i] = mirror(dag, &node, image, sign, &sign[i]);
-		if (node.op == OP_SUB && image[i] != NONE) {   /* b - a is -(a - b), bit for bit */
-			Ref opposite = dag_node(dag, OP_SUB, node.arg[1], node.arg[0], NONE);
-			if (image[i] == opposite) {
-				image[i] = (Ref)i;
-				sign[i] = -sign[i];
-			}
+		if (node.op != OP_SUB || image[i] == NONE || image[i] < (Ref)count)
+			continue;
+		const Node found = dag->node[image[i]];
+		Ref opposite = dag_node(dag, OP_SUB, found.arg[1], found.arg[0], NONE);
+		if (opposite < (Ref)count) {           /* b - a is -(a - b), bit for bit */
+			image[i] = opposite;
+			sign[i] = -sign[i];
 		}
 	}
 	for (int k = 0; k < dag->outs; ++k)

@@ -71,6 +71,12 @@ const int precision_count = LENGTH(precisions);
 
 enum { MAX_FILES = 4096, WIDTH = 100, TAB = 8 };
 
+char *emit_divisions(const Program *program)
+{
+	return program->cost.divide ? format(", %d div or sqrt", program->cost.divide)
+		: format("%s", "");
+}
+
 Text *file_new(Files *files, const char *name)
 {
 	if (!files->file)

@@ -1,4 +1,4 @@
-/* emit_edge.c - single-edge functions ew_line_NAME, and the coefficient matrix
+/* emit_edge.c - single-edge functions ew_line_NAME, ew_cubic_NAME, and the coefficient matrix
  * in every form it is shown in.
  *
  * The comment above a function shows the matrix that the body evaluates; --show prints the same
@@ -71,6 +71,34 @@ static void add_table(Text *text, const Matrix *matrix, const char *margin)
 	}
 }
 
+/* "x0, y0, x1, y1" with the type before each. */
+char *emit_parameters(int window, const char *real)
+{
+	Text text = { 0 };
+	for (int i = 0; i < window_points(window); ++i)
+		text_add(&text, "%s%s x%d, %s y%d", i ? ", " : "", real, i, real, i);
+	return text_take(&text);
+}
+
+/* What the body of a curve's function computes. */
+static void add_curve_formula(Text *text, const Edge *edge)
+{
+	static const char *const areas[WINDOWS] = {
+		"(x0 y1 - x1 y0) / 2", "", "(2 c01 + 2 c12 + c02) / 6", "",
+		"(6 c01 + 3 c02 + c03 + 3 c12 + 3 c13 + 6 c23) / 20",
+	};
+	if (!edge->what) {
+		text_add(text, " *     %s%s\n", areas[edge->window],
+			edge->window == WINDOW_LINE ? "" : ",  c_ij = x_i y_j - x_j y_i");
+		return;
+	}
+	text_add(text, " *     1/%d sum over %d Gauss-Legendre nodes tau of weight x^%d y^%d "
+		"(x y' - y x'),\n *     in the power basis about the middle, t = (1 + tau)/2; exact "
+		"for this degree\n", edge->what->m + edge->what->n + 2,
+		curve_nodes(edge->window, edge->what->m + edge->what->n), edge->what->m,
+		edge->what->n);
+}
+
 static void add_formula(Text *text, const Edge *edge, const char *margin)
 {
 	if (edge->what->m < 0) {
@@ -85,26 +113,45 @@ static void add_formula(Text *text, const Edge *edge, const char *margin)
 	add_table(text, &matrix, margin);
 }
 
+/* What one edge contributes to. */
+static const char *contribution(const Edge *edge)
+{
+	static const char *const kinds[WINDOWS] = {
+		"the line edge (x0,y0) -> (x1,y1)", "",
+		"the quadratic Bezier edge with control points (x0,y0) .. (x2,y2)", "",
+		"the cubic Bezier edge with control points (x0,y0) .. (x3,y3)",
+	};
+	if (!edge->what)
+		return format("%s to the area", kinds[edge->window]);
+	return format("%s to the integral of %s", kinds[edge->window], edge->what->formula);
+}
+
 void emit_edge(Text *text, const Edge *edge, const Precision *precision)
 {
 	const Style style = { precision, 1, 1, 0, "", "return ", NULL };
 	const Program *program = &edge->program;
 	const char *real = precision->real;
+	const int m = edge->what ? edge->what->m : 0, n = edge->what ? edge->what->n : 0;
+	const int reverses = program->dag->proof == PROOF_POLYNOMIAL;
 	Mark mark = arena_mark();
-	text_add(text, "/* Contribution of the line edge (x0,y0) -> (x1,y1) to the integral of "
-		"%s:\n *\n", edge->what->formula);
-	add_formula(text, edge, " * ");
+	text_add(text, "/* Contribution of %s:\n *\n", contribution(edge));
+	if (edge->what && edge->window == WINDOW_LINE)
+		add_formula(text, edge, " * ");
+	else
+		add_curve_formula(text, edge);
 	text_add(text, " *\n * Sum it over a closed boundary; counterclockwise is positive.");
-	if (edge->what->m >= 0)
-		text_add(text, " Unit: coordinate^%d.", edge->what->m + edge->what->n + 2);
+	if (m >= 0)
+		text_add(text, " Unit: coordinate^%d.", m + n + 2);
 	text_add(text, "\n * Error: at most gamma_%d times the same sum with every term positive; "
 		"gamma_k = k u/(1 - k u),\n * u = %s.\n", edge->bound.k, precision->unit);
-	text_add(text, " * Swapping the ends negates the result bit for bit; "
-		"a repeated vertex gives 0.\n");
-	text_add(text, " * Cost: %d mul, %d add; depth %d. */\n", program->cost.fma,
-		program->cost.add, program->depth);
-	text_add(text, "%s ew_line_%s%s(%s x0, %s y0, %s x1, %s y1)\n{\n", real, edge->what->name,
-		precision->suffix, real, real, real, real);
+	if (reverses)
+		text_add(text, " * Swapping the ends negates the result bit for bit; "
+			"a repeated vertex gives 0.\n");
+	text_add(text, " * Cost: %d mul, %d add%s; depth %d. */\n", program->cost.fma,
+		program->cost.add, emit_divisions(program), program->depth);
+	emit_statement(text, 0, format("%s ew_%s%s(%s)", real, edge_name(edge), precision->suffix,
+		emit_parameters(edge->window, real)));
+	text_add(text, "{\n");
 	emit_program(text, program, &style);
 	text_add(text, "}\n");
 	arena_release(mark);
@@ -115,7 +162,7 @@ static Text *open_file(Files *files, const Request *request, const Precision *pr
 	const char *stem = format("edgewise_line%s", precision->suffix);
 	const char *name = part > 1 ? format("%s_%d.c", stem, part) : format("%s.c", stem);
 	Text *text = file_new(files, name);
-	emit_banner(text, name, format("contribution of one line edge to an integral, %s",
+	emit_banner(text, name, format("contribution of one edge to an integral, %s",
 		precision->real), request);
 	text_add(text, "\n#include \"edgewise.h\"\n#include \"edgewise_kernels.h\"\n");
 	return text;

@@ -9,9 +9,9 @@
 
 typedef struct { int (*wanted)(const Request *); const char *comment, *prototype; } Entry;
 
-static int always(const Request *request)
+static int has_rings(const Request *request)
 {
-	return request != NULL;
+	return spec_has_rings(request);
 }
 
 static int has_area(const Request *request)
@@ -26,7 +26,42 @@ static int has_centroid(const Request *request)
 
 static int has_monomials(const Request *request)
 {
-	return request->monomials > 0;
+	return request->monomials > 0 && request->edges & EDGE_LINE;
+}
+
+static int has_curves(const Request *request)
+{
+	return request->curves >= 0;
+}
+
+static int has_quads(const Request *request)
+{
+	return request->curves >= 0 && request->edges & EDGE_QUAD;
+}
+
+static int has_cubics(const Request *request)
+{
+	return request->curves >= 0 && request->edges & EDGE_CUBIC;
+}
+
+static int has_conics(const Request *request)
+{
+	return request->curves >= 0 && request->edges & EDGE_CONIC;
+}
+
+static int has_paths(const Request *request)
+{
+	return request->curves >= 0 && request->edges == ALL_EDGES;
+}
+
+static int has_distance(const Request *request)
+{
+	return (request->families & FAMILY_DISTANCE) != 0;
+}
+
+static int has_closure(const Request *request)
+{
+	return (request->families & FAMILY_CLOSURE) != 0;
 }
 
 static const Entry rings[] = {
@@ -104,18 +139,100 @@ static const Entry rings[] = {
 	"size_t rings, REAL *out)" },
 };
 
+#define LINE_POINTS "REAL x0, REAL y0, REAL x1, REAL y1"
+#define QUAD_POINTS LINE_POINTS ", REAL x2, REAL y2"
+#define CUBIC_POINTS QUAD_POINTS ", REAL x3, REAL y3"
+
+static const Entry kinds[] = {
+	{ has_curves,
+	"All moments of x^m y^n, m + n <= degree, of one edge: its contribution, form 3, "
+	"1/(m+n+2) integral of x^m y^n (x dy - y dx), so that edges of every kind may be added up. "
+	"out[EW_INDEX(m, n)]; degrees beyond EW_MAX_CURVE_DEGREE give EW_BAD_DEGREE and leave out "
+	"untouched. Quadratic and cubic Bezier edges: exact polynomials to degree 1, beyond sums over "
+	"the Gauss-Legendre nodes that are exact for the degree. Error: gamma_(k + 2) times the same "
+	"sum with every term positive, in the power basis about the middle of the curve; k per degree "
+	"from the manifest. Source: Green's theorem; own derivation.",
+	"int ew_line_moments@(int degree, " LINE_POINTS ", REAL *out)" },
+	{ has_quads, NULL,
+	"int ew_quad_moments@(int degree, " QUAD_POINTS ", REAL *out)" },
+	{ has_cubics, NULL,
+	"int ew_cubic_moments@(int degree, " CUBIC_POINTS ", REAL *out)" },
+	{ has_conics,
+	"The same of a conic edge with weights 1, w, 1: those of the chord and of the cap beyond it, "
+	"by a Gauss-Jacobi rule whose truncation is below rounding. w >= 0 or +inf (the control "
+	"polygon); -1 < w < 0 is the complementary arc; w <= -1 or NaN gives NaN. Weights w0, w1, w2 "
+	"are the same as w = w1 / sqrt(w0 w2).",
+	"int ew_conic_moments@(int degree, " QUAD_POINTS ", REAL w, REAL *out)" },
+	{ has_conics,
+	"Area of a conic edge, weights as for ew_conic_moments: (x0 y2 - x2 y0)/2 + f(w) T with "
+	"T = 1/2 cross(p1 - p0, p2 - p0), f(w) = w (acos(w)/sqrt(1 - w^2) - w)/(1 - w^2); w = 0 is the "
+	"chord, w = 1 the quadratic Bezier edge. Error: f is good to 2.5 ulp (10 ulp for w < 0, where "
+	"it is a difference), both terms to 4 u more. Swapping the ends negates the result bit for bit.",
+	"REAL ew_conic_area@(" QUAD_POINTS ", REAL w)" },
+	{ has_paths,
+	"All moments of the region inside a path, degrees as for ew_line_moments. verbs are EW_MOVE (1 "
+	"point), EW_LINE (1), EW_QUAD (2), EW_CONIC (2 and one weight), EW_CUBIC (3), EW_CLOSE (0); "
+	"points are x, y alternating, point_count counts points. Open contours are closed by a line; "
+	"empty ones and those of one point give 0; drawing goes on after EW_CLOSE from where the "
+	"contour began. An unknown verb, one before any EW_MOVE, or points and weights that are not "
+	"exactly those that the verbs take: EW_BAD_PATH, out untouched, nothing read past the arrays. "
+	"Error: the bounds of the edges, summed; edges of each kind are added up in lanes as in "
+	"ew_moments. About (0,0): move a path that is far from it.",
+	"int ew_path_moments@(int degree, const unsigned char *verbs, size_t verb_count, "
+	"const REAL *points, size_t point_count, const REAL *weights, size_t weight_count, REAL *out)" },
+	{ has_distance,
+	"Contribution of one line edge to the integral of the distance to the origin, sqrt(x^2 + y^2): "
+	"s/12 (S + (|p0 + p1|^2 + (2 s/S)^2 K(d^2/S^2))/S), s = x0 y1 - x1 y0, S = |p0| + |p1|, "
+	"d = |p1 - p0|, K(t^2) = (atanh(t)/t - 1)/t^2; that is the integral over the triangle (origin, "
+	"p0, p1). Unit: coordinate^3. Error: at most gamma_28 of the result (8 u is the most ever seen). "
+	"An edge of length 0 or whose line passes the origin gives exactly 0. Swapping the ends negates "
+	"the result bit for bit. Squares of coordinates must not overflow. Source: own derivation.",
+	"REAL ew_line_distance@(" LINE_POINTS ")" },
+	{ has_distance,
+	"The same for the integral of r^k, k = -1, 1, 3 or 5; NaN for any other k. Unit: "
+	"coordinate^(k+2). Error: gamma_40 at most (18 u is never reached).",
+	"REAL ew_line_radius@(int k, " LINE_POINTS ")" },
+	{ has_distance,
+	"Integral of the distance to (cx,cy) over the region inside a ring. Error: gamma_(28 + K), K = "
+	"max(ceil(n/8), 23) + 2 (float: at most 68), of the sum of the edges' magnitudes, and what moving "
+	"the vertices costs: each is rounded once.",
+	"REAL ew_distance@(const REAL *x, const REAL *y, size_t n, REAL cx, REAL cy)" },
+	{ has_distance,
+	"The same for r^k, k = -1, 1, 3 or 5; NaN for any other k. Error as ew_distance, 40 for 28.",
+	"REAL ew_radius@(int k, const REAL *x, const REAL *y, size_t n, REAL cx, REAL cy)" },
+	{ has_closure,
+	"(x0-px)(y0-py) - (x1-px)(y1-py): its sum over the edges of a closed boundary is 0, in any "
+	"order of the edges.",
+	"REAL ew_line_closure@(" LINE_POINTS ", REAL px, REAL py)" },
+	{ has_closure,
+	"The sum of ew_line_closure over edges in any order. On a closed set its terms cancel in pairs: "
+	"|sum| <= gamma_(ceil(edges/8) + 4) times the sum of all |products| (float: gamma_73). "
+	"It misses sets whose surplus of starts over ends is orthogonal to x y, x and y, wherever p is: "
+	"such as (1,0) -> (2,0) with (-1,0) -> (-2,0). ew_is_closed does not.",
+	"REAL ew_closure@(const REAL *x0, const REAL *y0, const REAL *x1, const REAL *y1, size_t edges, "
+	"REAL px, REAL py)" },
+	{ has_closure,
+	"1 if every vertex is as often the start of an edge as the end of one, bit for bit except that "
+	"-0 is 0; else 0. Exact on closed sets; an open one is taken for closed with probability 2^-64, "
+	"unless it was made by someone who knows the keys, which are fixed: a sum of hashes modulo "
+	"2^64. 0 if a coordinate is NaN or infinite; 1 for no edges. Vertices that are equal only up to "
+	"rounding do not match.",
+	"int ew_is_closed@(const REAL *x0, const REAL *y0, const REAL *x1, const REAL *y1, "
+	"size_t edges)" },
+};
+
 static const Entry dispatch[] = {
-	{ always,
+	{ has_rings,
 	"Bit set of the targets that this build has and this CPU runs.",
 	"unsigned ew_targets(void)" },
-	{ always,
+	{ has_rings,
 	"Forces one target (one bit of ew_targets); 0 returns to the best. EW_UNSUPPORTED changes "
 	"nothing. For the whole process.",
 	"int ew_use_target(unsigned target)" },
-	{ always,
+	{ has_rings,
 	"\"portable\", \"fma\", ...; \"unknown\" if it is not one target.",
 	"const char *ew_target_name(unsigned target)" },
-	{ always,
+	{ has_rings,
 	"Version of the generator, \"major.minor.patch\".",
 	"const char *ew_version(void)" },
 };
@@ -157,7 +274,8 @@ static void add_entries(Text *text, const Entry *entry, int count, const Request
 	for (int i = 0; i < count; ++i) {
 		if (!entry[i].wanted(request))
 			continue;
-		add_comment(text, entry[i].comment);
+		if (entry[i].comment)
+			add_comment(text, entry[i].comment);
 		if (strchr(entry[i].prototype, '@'))
 			add_twins(text, entry[i].prototype, request);
 		else
@@ -191,18 +309,61 @@ static void add_macros(Text *text, const Request *request)
 			"#define EW_INDEX(m, n) (((m) + (n)) * ((m) + (n) + 1) / 2 + (n))"
 			"  /* 1, x, y, x^2, x y, ... */\n",
 			request->moments);
+	if (request->curves >= 0)
+		text_add(text, "#define EW_MAX_CURVE_DEGREE %d\n", request->curves);
 	for (int i = 0; i < precision_count; ++i)
 		if (request->precisions & precisions[i].bit)
 			text_add(text, "#define EW_HAS_%s 1\n",
 				precisions[i].is_float ? "FLOAT" : "DOUBLE");
+	const struct { int wanted; const char *name; } features[] = {
+		{ has_quads(request), "QUADS" }, { has_conics(request), "CONICS" },
+		{ has_cubics(request), "CUBICS" }, { has_paths(request), "PATHS" },
+		{ has_distance(request), "DISTANCE" }, { has_closure(request), "CLOSURE" },
+	};
+	for (int i = 0; i < LENGTH(features); ++i)
+		if (features[i].wanted)
+			text_add(text, "#define EW_HAS_%s 1\n", features[i].name);
 	text_add(text, "\nenum {\n\tEW_PORTABLE = 1,\n\tEW_FMA = 2,\n\tEW_AVX2 = 4,\n"
 		"\tEW_AVX512 = 8,\n\tEW_NEON = 16,\n\tEW_WASM128 = 32\n};\n");
+	if (has_paths(request))
+		text_add(text, "enum { EW_MOVE, EW_LINE, EW_QUAD, EW_CONIC, EW_CUBIC, EW_CLOSE };\n");
 	text_add(text, "enum {\n\tEW_OK = 0,\n\tEW_BAD_DEGREE,\n\tEW_BAD_PATH,\n\tEW_BAD_OFFSETS,\n"
 		"\tEW_BAD_IMAGE,\n\tEW_BAD_COORDINATE,\n\tEW_ZERO_AREA,\n\tEW_NO_MEMORY,\n"
 		"\tEW_UNSUPPORTED\n};\n");
 }
 
-static void add_edges(Text *text, const Request *request, const Kernels *kernels)
+static void add_edge(Text *text, const Edge *edge, const Request *request)
+{
+	add_twins(text, format("REAL ew_%s@(%s)", edge_name(edge),
+		emit_parameters(edge->window, "REAL")), request);
+}
+
+/* Areas of edges, and single monomials of curves. */
+static void add_curve_edges(Text *text, const Request *request, const Kernels *kernels)
+{
+	int areas = 0, monomials = 0;
+	for (int i = 0; i < kernels->edges; ++i) {
+		const Edge *edge = &kernels->edge[i];
+		if (!edge->what && areas++ == 0)
+			add_comment(text, "Area of one edge, form 3: (x0 y1 - x1 y0)/2, (2 c01 + 2 c12 + "
+				"c02)/6, (6 c01 + 3 c02 + c03 + 3 c12 + 3 c13 + 6 c23)/20 with c_ij = x_i y_j - "
+				"x_j y_i. Swapping the ends negates it bit for bit. Bound and cost stand above "
+				"each body. Source: Green's theorem.");
+		if (!edge->what)
+			add_edge(text, edge, request);
+	}
+	for (int i = 0; i < kernels->edges; ++i) {
+		const Edge *edge = &kernels->edge[i];
+		if (!edge->what || edge->window == WINDOW_LINE)
+			continue;
+		if (monomials++ == 0)
+			add_comment(text, "One monomial over one curved edge, form 3, by the Gauss-Legendre "
+				"nodes that are exact for it. Bound and cost stand above each body.");
+		add_edge(text, edge, request);
+	}
+}
+
+static void add_line_edges(Text *text, const Request *request, const Kernels *kernels)
 {
 	add_comment(text, "Contribution of one line edge (x0,y0) -> (x1,y1) to the integral of "
 		"x^m y^n or of a polynomial: m! n!/(m+n+2)! (x0 y1 - x1 y0) "
@@ -211,11 +372,11 @@ static void add_edges(Text *text, const Request *request, const Kernels *kernels
 		"the error bound and the cost stand above each body. "
 		"Source: Green's theorem; Steger 1996.");
 	for (int i = 0; i < kernels->edges; ++i)
-		add_twins(text, format("REAL ew_line_%s@(REAL x0, REAL y0, REAL x1, REAL y1)",
-			kernels->edge[i].what->name), request);
+		if (kernels->edge[i].what && kernels->edge[i].window == WINDOW_LINE)
+			add_edge(text, &kernels->edge[i], request);
 	for (int i = 0; i < kernels->rings; ++i) {
 		const Ring *ring = &kernels->ring[i];
-		if (ring->m >= 0)
+		if (strcmp(ring->family, "polynomial") != 0)
 			continue;
 		int number = i - (kernels->rings - request->polynomials);
 		add_comment(text, format("Integral of %s over one ring. Error: gamma_K as "
@@ -223,6 +384,13 @@ static void add_edges(Text *text, const Request *request, const Kernels *kernels
 		add_twins(text, format("REAL ew_%s@(const REAL *x, const REAL *y, size_t n)",
 			ring->name), request);
 	}
+}
+
+static void add_edges(Text *text, const Request *request, const Kernels *kernels)
+{
+	if (request->edges & EDGE_LINE && request->monomials + request->polynomials > 0)
+		add_line_edges(text, request, kernels);
+	add_curve_edges(text, request, kernels);
 }
 
 void emit_header(Files *files, const Request *request, const Kernels *kernels)
@@ -236,6 +404,7 @@ void emit_header(Files *files, const Request *request, const Kernels *kernels)
 	add_macros(text, request);
 	text_add(text, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n");
 	add_entries(text, rings, LENGTH(rings), request);
+	add_entries(text, kinds, LENGTH(kinds), request);
 	add_edges(text, request, kernels);
 	add_entries(text, dispatch, LENGTH(dispatch), request);
 	text_add(text, "\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n");

@@ -21,64 +21,6 @@ static char *ring_id(const Ring *ring)
 	return format("EW_RING_%s", upper(ring->name));
 }
 
-/* What every emitted file needs: no contraction, and which targets this compiler can build. */
-static void add_environment(Text *text, const Request *request)
-{
-	text_add(text, "#include <float.h>\n\n#ifndef EW_ALLOW_FAST_MATH\n"
-		"#if defined(__FAST_MATH__) || defined(_M_FP_FAST)\n"
-		"#error \"-ffast-math breaks the error bounds; define EW_ALLOW_FAST_MATH to accept "
-		"that\"\n"
-		"#elif (defined(FLT_EVAL_METHOD) && (FLT_EVAL_METHOD < 0 || FLT_EVAL_METHOD == 2)) "
-		"\\\n\t|| (defined(__TINYC__) && defined(__i386__))\n"
-		"#error \"wider arithmetic than the types say (x87) breaks the error bounds; "
-		"use -msse2 -mfpmath=sse\"\n#endif\n#endif\n\n"
-		"/* a * b + c must not become one operation behind our back: it would break "
-		"x0 y1 - x1 y0 == 0 on a\n * repeated vertex, and equal bits on all machines. */\n"
-		"#if defined(__clang__)\n#pragma clang fp contract(off)\n"
-		"#elif defined(__GNUC__) && !defined(__TINYC__)\n"
-		"#pragma GCC optimize (\"fp-contract=off\")\n"
-		"#elif defined(_MSC_VER)\n#pragma fp_contract(off)\n#endif\n\n");
-	text_add(text, "#ifdef __cplusplus\n#define EW_CAST(type, value) static_cast<type>(value)\n"
-		"#else\n#define EW_CAST(type, value) ((type)(value))\n#endif\n\n");
-	text_add(text, "/* What compilers must not see through: that accumulators in memory could be in "
-		"registers (they would spill),\n * and that a vector could be loaded a second time "
-		"instead of being kept. */\n"
-		"#if defined(__GNUC__) || defined(__clang__)\n"
-		"#define EW_HIDE(pointer) __asm__(\"\" : \"+r\"(pointer))\n"
-		"#define EW_KEEP(vector) __asm__(\"\" : \"+x\"(vector))\n"
-		"#else\n#define EW_HIDE(pointer) (void)0\n#define EW_KEEP(vector) (void)0\n#endif\n\n");
-	text_add(text, "/* Which targets can this compiler build? "
-		"The CPU is asked at run time. */\n"
-		"#if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__)) "
-		"&& !defined(__TINYC__)\n#define EW_X86 1\n"
-		"#define EW_ATTRIBUTE_FMA __attribute__((target(\"fma\")))\n"
-		"#define EW_ATTRIBUTE_AVX2 __attribute__((target(\"avx2,fma\")))\n"
-		"#define EW_ATTRIBUTE_AVX512 __attribute__((target(\"avx512f,fma\")))\n"
-		"#else      /* MSVC has every intrinsic without attributes */\n"
-		"#if defined(_MSC_VER) && defined(_M_X64) && !defined(_M_ARM64EC)\n"
-		"#define EW_X86 1\n#else\n#define EW_X86 0\n#endif\n"
-		"#define EW_ATTRIBUTE_FMA\n#define EW_ATTRIBUTE_AVX2\n"
-		"#define EW_ATTRIBUTE_AVX512\n#endif\n"
-		"#if EW_X86 && defined(_MSC_VER) && defined(__clang__)\n"
-		"/* There <immintrin.h> leaves out what no flag of the command line names. */\n"
-		"#include <immintrin.h>\n#include <smmintrin.h>\n#include <avxintrin.h>\n"
-		"#include <avx2intrin.h>\n#include <fmaintrin.h>\n#include <avx512fintrin.h>\n"
-		"#endif\n"
-		"#define EW_ABS_mm256_pd(a) _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)\n"
-		"#define EW_ABS_mm256_ps(a) _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a)\n"
-		"#define EW_ABS_mm512_pd(a) _mm512_abs_pd(a)\n"
-		"#define EW_ABS_mm512_ps(a) _mm512_abs_ps(a)\n"
-		"#if defined(__aarch64__) && !defined(__TINYC__)\n#define EW_ARM 1\n"
-		"#define EW_ATTRIBUTE_NEON\n"
-		"#else\n#define EW_ARM 0\n#endif\n"
-		"#if defined(__FP_FAST_FMA)\n#define EW_FAST_FMA 1\n"
-		"#else\n#define EW_FAST_FMA 0\n#endif\n");
-	for (int t = 0; t < target_count; ++t)
-		if (targets[t].guard)
-			text_add(text, "#define %s %s\n", targets[t].guard,
-				request->targets & targets[t].bit ? targets[t].condition : "0");
-}
-
 static void add_lines(Text *text, const Request *request, const Kernels *kernels)
 {
 	for (int p = 0; p < precision_count; ++p) {
@@ -87,7 +29,7 @@ static void add_lines(Text *text, const Request *request, const Kernels *kernels
 			"W */\n#define EW_LINES_%s(X)", upper(precisions[p].real));
 		for (int i = 0; i < kernels->edges && wanted; ++i) {
 			const Edge *edge = &kernels->edge[i];
-			if (edge->what->m >= 0)
+			if (edge->window == WINDOW_LINE && edge->what && edge->what->m >= 0)
 				text_add(text, " \\\n\tX(%d, %d, ew_line_%s%s, %d)", edge->what->m,
 					edge->what->n, edge->what->name, precisions[p].suffix,
 					edge->bound.k);
@@ -152,6 +94,32 @@ static const Ring *ring_named(const Kernels *kernels, const char *name)
 	bug("no ring kernel for %s", name);
 }
 
+/* The kernels for degrees 0, 1, ... of each kind of edge: the next one that goes so far. */
+static void add_kinds(Text *text, const Request *request, const Kernels *kernels)
+{
+	static const char *const kinds[] = { "line", "quad", "conic", "cubic" };
+	if (request->curves < 0)
+		return;
+	text_add(text, "\n/* Kernels of edges one by one, for the moments to degree 0, 1, ... */\n");
+	for (int i = 0; i < LENGTH(kinds); ++i) {
+		if (!(request->edges & 1u << i))
+			continue;
+		text_add(text, "#define EW_IDS_%s", upper(kinds[i]));
+		for (int degree = 0; degree <= request->curves; ++degree) {
+			const Ring *best = NULL;
+			for (int k = kernels->rings - 1; k >= 0; --k) {
+				const Ring *ring = &kernels->ring[k];
+				const char *family = i == 0 && degree ? "moments" : kinds[i];
+				if (strcmp(ring->family, family) == 0 && ring->m >= degree)
+					best = ring;
+			}
+			text_add(text, "%s%s", degree == 0 ? " " : degree % 4 ? ", " : ", \\\n\t",
+				ring_id(best));
+		}
+		text_add(text, "\n");
+	}
+}
+
 static void add_bounds(Text *text, const Request *request, const Kernels *kernels)
 {
 	text_add(text, "\n/* X(k, r, products, wk, wr), for the moments to degree 0, 1, ...: k of "
@@ -161,7 +129,7 @@ static void add_bounds(Text *text, const Request *request, const Kernels *kernel
 		const Ring *ring = ring_named(kernels, format("moments_%d", degree));
 		const Ring *terms = ring_named(kernels, format("magnitudes_%d", degree));
 		text_add(text, " \\\n\tX(ew_ring_%s_k, %d, %d, %d, %d)", ring->name,
-			ring->worst.repeat, ring->portable.cost.fma, terms->worst.k,
+			ring->worst.repeat, ring->portable[0].cost.fma, terms->worst.k,
 			terms->worst.repeat);
 	}
 	text_add(text, "\n");
@@ -176,7 +144,7 @@ static void add_precision(Text *text, const Request *request, const Kernels *ker
 		"#define EW_POLYNOMIALS_%s(X)", precision->real, real);
 	for (int i = 0; i < kernels->edges; ++i) {
 		const Edge *edge = &kernels->edge[i];
-		if (edge->what->m < 0)
+		if (edge->what && edge->what->m < 0)
 			text_add(text, " \\\n\tX(ew_%s%s, %s, ew_line_%s%s, %d)", edge->what->name,
 				precision->suffix, ring_id(ring_named(kernels, edge->what->name)),
 				edge->what->name, precision->suffix, edge->bound.k);
@@ -190,7 +158,8 @@ static void add_precision(Text *text, const Request *request, const Kernels *ker
 			precision->real, upper(targets[t].name), real);
 		for (int i = 0; i < kernels->rings; ++i) {
 			const Ring *ring = &kernels->ring[i];
-			Count cost = targets[t].fused ? ring->fused.cost : ring->portable.cost;
+			Count cost = targets[t].fused ? ring->fused[precision->is_float].cost
+				: ring->portable[precision->is_float].cost;
 			text_add(text, " \\\n\tX(%s, ew_ring_%s%s_%s, %d, %d)", ring_id(ring),
 				ring->name, precision->suffix, targets[t].name, cost.fma, cost.add);
 		}
@@ -324,13 +293,14 @@ void emit_list(Files *files, const Request *request, const Kernels *kernels)
 		"not for users", request);
 	text_add(text, "#ifndef EDGEWISE_KERNELS_H\n#define EDGEWISE_KERNELS_H\n\n"
 		"#include <stddef.h>\n");
-	add_environment(text, request);
+	emit_environment(text, request);
 	add_lines(text, request, kernels);
 	add_ids(text, kernels);
 	for (int p = 0; p < precision_count; ++p)
 		if (request->precisions & precisions[p].bit)
 			add_precision(text, request, kernels, &precisions[p]);
 	add_bounds(text, request, kernels);
+	add_kinds(text, request, kernels);
 	add_items(text, kernels);
 	add_targets(text, request, kernels);
 	add_types(text, request);
@@ -362,8 +332,9 @@ static void add_edges(Text *text, const Kernels *kernels)
 	text_add(text, " \"edges\": [");
 	for (int i = 0; i < kernels->edges; ++i) {
 		const Edge *edge = &kernels->edge[i];
-		text_add(text, "%s\n  {\"function\": \"ew_line_%s\", \"integrand\": %s, \"k\": %d",
-			i ? "," : "", edge->what->name, quoted(edge->what->formula), edge->bound.k);
+		text_add(text, "%s\n  {\"function\": \"ew_%s\", \"integrand\": %s, \"k\": %d",
+			i ? "," : "", edge_name(edge), quoted(edge->what ? edge->what->formula
+			: "1"), edge->bound.k);
 		add_count(text, "portable", &edge->program);
 		text_add(text, "}");
 	}
@@ -381,9 +352,9 @@ static void add_rings(Text *text, const Request *request, const Kernels *kernels
 			window_planes(ring->window),
 			ring->turns, ring->accumulators,
 			ring->outputs);
-		add_count(text, "portable", &ring->portable);
+		add_count(text, "portable", &ring->portable[0]);
 		if (request->targets & TARGET_FMA)
-			add_count(text, "fma", &ring->fused);
+			add_count(text, "fma", &ring->fused[0]);
 		text_add(text, ", \"repeat\": %d, \"k\": [", ring->worst.repeat);
 		for (int j = 0; j < ring->outputs && ring->bound; ++j)
 			text_add(text, "%s%d", j ? ", " : "", ring->bound[j].k);

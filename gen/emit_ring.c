@@ -22,6 +22,18 @@ static char *describe(const Ring *ring)
 {
 	if (is_family(ring, "compensated"))
 		return format("area, sum and what its roundings lost");
+	if (is_family(ring, "radius"))
+		return format("r^%d over the triangles of the edges and the origin", ring->m);
+	if (is_family(ring, "closure"))
+		return format("x0 y0 - x1 y1");
+	if (is_family(ring, "conic"))
+		return format("all moments of x^m y^n, m + n <= %d, of the cap of a conic edge",
+			ring->m);
+	if (ring->window == WINDOW_QUAD || ring->window == WINDOW_CUBIC)
+		return format("all moments of x^m y^n, m + n <= %d, of a %s edge", ring->m,
+			ring->family);
+	if (is_family(ring, "line"))
+		return format("area of a line edge");
 	if (is_family(ring, "magnitudes"))
 		return format("all terms of x^m y^n, m + n <= %d, with positive sign", ring->m);
 	if (ring->n == 0 && ring->outputs > 1)
@@ -82,11 +94,13 @@ static void add_loop(Text *text, const Ring *ring, const Program *program,
 static void add_kernel(Text *text, const Ring *ring, const Target *target,
 	const Precision *precision)
 {
-	const Program *program = target->fused ? &ring->fused : &ring->portable;
+	const Program *program = target->fused ? &ring->fused[precision->is_float]
+		: &ring->portable[precision->is_float];
 	text_add(text, "\n/* %s; scheme %s.\n", describe(ring), ring->scheme);
-	text_add(text, " * Cost per item: %d %s, %d add; %d accumulators, %d values alive, "
+	text_add(text, " * Cost per item: %d %s, %d add%s; %d accumulators, %d values alive, "
 		"depth %d. */\n", program->cost.fma, target->fused ? "mul or fma" : "mul",
-		program->cost.add, ring->accumulators, program->live, program->depth);
+		program->cost.add, emit_divisions(program), ring->accumulators, program->live,
+		program->depth);
 	if (target->attribute)
 		text_add(text, "%s ", target->attribute);
 	add_signature(text, ring, target, precision);
@@ -112,8 +126,14 @@ static void add_kernel(Text *text, const Ring *ring, const Target *target,
 /* Each family goes to files of its own, both kinds of integrands together. */
 static const char *group_of(const Ring *ring)
 {
-	if (is_family(ring, "moments"))
-		return "moments";
+	static const char *const groups[][2] = {
+		{ "moments", "moments" }, { "line", "curves" }, { "quad", "curves" },
+		{ "conic", "curves" }, { "cubic", "curves" }, { "radius", "distance" },
+		{ "closure", "distance" },
+	};
+	for (int i = 0; i < LENGTH(groups); ++i)
+		if (is_family(ring, groups[i][0]))
+			return groups[i][1];
 	return is_family(ring, "monomial") || is_family(ring, "polynomial") ? "integrands" : "trust";
 }
 

@@ -11,7 +11,8 @@
  *   stored    accumulators stay in the nearest cache and take two vectors per load and store
  *
  * The last vectors may be partial: their loads are masked, or go through buffers that hold 0 behind
- * the last item, and an item of zeros adds exactly 0. */
+ * the last item, and an item of zeros adds exactly 0. Kernels of curves are long, so they have this
+ * one loop only; what it costs is small beside their operations. */
 #include "gen.h"
 
 enum { FEW_OPERATIONS = 6,   /* on the FMA pipe, up to which loads are the limit (degree 1) */
@@ -21,12 +22,18 @@ enum { FEW_OPERATIONS = 6,   /* on the FMA pipe, up to which loads are the limit
 typedef struct {
 	Text *text;
 	const Ring *ring;
+	const Program *program;
 	const Vector *vector;
 	const Precision *precision;
 	const char *type;                    /* of a register */
 	int width;                           /* V */
 	Style style;
 } Shape;
+
+static int is_curve(const Ring *ring)
+{
+	return ring->window >= WINDOW_QUAD;
+}
 
 static const char *margin(int indent)
 {
@@ -73,8 +80,9 @@ static void add_rest(const Shape *shape, int turn, const char *suffix)
 			"0x%xu);\n", tab, mask, suffix, mask, suffix, shape->width, suffix,
 			(1u << shape->width) - 1);
 	else
-		text_add(shape->text, "%s%s pad%s[4][%d];\n%sint at%s = 0;\n", tab,
-			shape->precision->real, suffix, shape->width, tab, suffix);
+		text_add(shape->text, "%s%s pad%s[%d][%d];\n%sint at%s = 0;\n", tab,
+			shape->precision->real, suffix, 2 * window_planes(shape->ring->window),
+			shape->width, tab, suffix);
 }
 
 static char *load_some(const Shape *shape, const char *name, char *from, const char *suffix)
@@ -127,7 +135,7 @@ static void add_items(Shape *shape, int whole)
 		set_turn(shape, turn, turns > 1 ? 4 : 3);
 		text_add(shape->text, turns > 1 ? "\t\t\t{\n" : "");
 		add_window(shape, turn, "", whole);
-		emit_program(shape->text, &shape->ring->fused, &shape->style);
+		emit_program(shape->text, shape->program, &shape->style);
 		text_add(shape->text, turns > 1 ? "\t\t\t}\n" : "");
 	}
 	text_add(shape->text, "\t\t}\n");
@@ -155,7 +163,7 @@ static void add_carried_turn(Shape *shape, int turn)
 		emit_statement(text, 5, format("const %s %s = %s;", shape->type, loads[i].name,
 			value));
 	}
-	emit_program(text, &shape->ring->fused, &shape->style);
+	emit_program(text, shape->program, &shape->style);
 	text_add(text, "\t\t\t\t\txa = xb;\n\t\t\t\t\tya = yb;\n\t\t\t\t}\n");
 }
 
@@ -182,7 +190,8 @@ static void add_locals(Shape *shape, int carried)
 	text_add(shape->text, "\t\tsize_t i = pass;\n");
 	if (carried)
 		add_carried(shape);
-	add_items(shape, 1);
+	if (!is_curve(shape->ring))
+		add_items(shape, 1);
 	add_items(shape, 0);
 	set_turn(shape, 0, 2);
 	for (int k = 0; k < shape->ring->accumulators; ++k)
@@ -200,7 +209,7 @@ static void add_stored_items(Shape *shape, int items)
 	add_window(shape, 0, "", items > 1);
 	if (items > 1)
 		add_window(shape, 1, "_2", 1);
-	emit_stored(shape->text, &shape->ring->fused, &shape->style, items, add_load, add_store,
+	emit_stored(shape->text, shape->program, &shape->style, items, add_load, add_store,
 		shape);
 	text_add(shape->text, "\t\t}\n");
 }
@@ -245,7 +254,7 @@ void emit_vector_item(Text *text, const Ring *ring, const Target *target,
 	text_add(text, "\n\t%s cx, %s *acc)\n{\n", type, type);
 	if (ring->window != WINDOW_VERTEX)
 		text_add(text, "\t(void)cx;\n");
-	emit_program(text, &ring->fused, &style);
+	emit_program(text, &ring->fused[precision->is_float], &style);
 	text_add(text, "}\n");
 }
 
@@ -254,13 +263,14 @@ void emit_vector_body(Text *text, const Ring *ring, const Target *target,
 {
 	const Vector *vector = target->vector;
 	const int width = vector->width[precision->is_float];
-	Shape shape = { text, ring, vector, precision, vector->type[precision->is_float], width,
+	const Program *program = &ring->fused[precision->is_float];
+	Shape shape = { text, ring, program, vector, precision, vector->type[precision->is_float], width,
 		{ precision, 0, 2, 0, "acc%d", "acc%d = ", vector } };
 	int carried = vector->shift[0] && width == precision->lanes
-		&& ring->fused.cost.fma <= FEW_OPERATIONS;
-	int stored = vector->registers >= MANY_REGISTERS && ring->turns == 1
-		&& ring->fused.cost.fma >= MANY_OPERATIONS
-		&& ring->accumulators + ring->fused.live > vector->registers;
+		&& program->cost.fma <= FEW_OPERATIONS;
+	int stored = !is_curve(ring) && vector->registers >= MANY_REGISTERS && ring->turns == 1
+		&& program->cost.fma >= MANY_OPERATIONS
+		&& ring->accumulators + program->live > vector->registers;
 	text_add(text, "\tfor (size_t pass = 0; pass < step && pass < count; pass += %d) {\n", width);
 	if (ring->window == WINDOW_VERTEX)
 		text_add(text, "\t\tconst %s cx = %s;\n", shape.type,

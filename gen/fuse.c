@@ -58,5 +58,7 @@ Dag *fuse(const Dag *dag)
 	f.to->finishes = dag->finishes;
 	f.to->window = dag->window;
 	f.to->turns = dag->turns;
+	f.to->proof = dag->proof;
+	f.to->k = dag->k;
 	return f.to;
 }

@@ -113,6 +113,7 @@ typedef struct {
 	int   m, n;                          /* exponents of a monomial; polynomial: -1 -1 */
 	Poly  integrand;                     /* in VAR_X, VAR_Y */
 	char *formula;                       /* x^4 y^2, for comments */
+	int   by_name;                       /* asked for, not just part of a family */
 } Integrand;
 
 enum { PRECISION_DOUBLE = 1, PRECISION_FLOAT = 2 };
@@ -121,8 +122,17 @@ enum { TARGET_PORTABLE = 1, TARGET_FMA = 2, TARGET_AVX2 = 4, TARGET_AVX512 = 8, 
 enum { ALL_TARGETS = 31, TARGETS = 5 };
 extern const char *const target_names[TARGETS];   /* in the order of the bits */
 
+enum { FAMILY_MOMENTS = 1, FAMILY_CURVES = 2, FAMILY_DISTANCE = 4, FAMILY_CLOSURE = 8 };
+enum { ALL_FAMILIES = 15, FAMILIES = 4 };
+extern const char *const family_names[FAMILIES];
+enum { EDGE_LINE = 1, EDGE_QUAD = 2, EDGE_CONIC = 4, EDGE_CUBIC = 8 };
+enum { ALL_EDGES = 15, EDGES = 4, CURVE_DEGREE = 8 };   /* of curves, unless asked for */
+extern const char *const edge_names[EDGES];
+
 typedef struct {
+	unsigned families, edges;            /* 0: not said */
 	int moments;                         /* all moments to this degree; -1: not asked for */
+	int curves;                          /* those of curves, or -1 */
 	Integrand *monomial;   int monomials;   /* single-edge functions and single-moment rings */
 	Integrand *polynomial; int polynomials;
 	unsigned precisions, targets;
@@ -137,6 +147,7 @@ int  spec_degree(const char *text);          /* 0 .. MAX_DEGREE */
 /* A bit set. */
 unsigned spec_list(const char *option, const char *text, const char *const *words, int count);
 void spec_prefix(const char *text);
+int  spec_has_rings(const Request *request);
 void spec_complete(Request *request);        /* defaults, monomials of the family, names, command */
 
 /* ---- green.c: integrand and edge -> exact polynomial; only here Green's theorem is known ----- */
@@ -149,6 +160,8 @@ typedef struct {
 
 Poly     green_cross(void);                  /* x0 y1 - x1 y0 */
 Integral green_line(Poly integrand);
+/* The value alone, for an edge with so many control points. */
+Poly     green_curve(int points, Poly integrand);
 
 /* ---- dag.c: hash-consed operations ----------------------------------------------------------- */
 
@@ -173,6 +186,10 @@ typedef struct {
 	const char *name;                    /* what the formula calls it, or NULL */
 } Node;
 
+/* Equal polynomials; a sum over the nodes of a quadrature rule, modulo a prime; or not polynomial:
+ * the tests compare with MPFR. */
+enum { PROOF_POLYNOMIAL, PROOF_QUADRATURE, PROOF_NONE };
+
 typedef struct {
 	Node *node; int count, room;
 	Ref  *bucket; int buckets;           /* hash table, a power of two */
@@ -181,7 +198,9 @@ typedef struct {
 	const char *scheme;                  /* name of the scheme that built it */
 	int   turns;                         /* sets of accumulators that the items of a lane take
 	                                      * in turn, to hide the latency of one */
-	int   window;
+	int   window;                        /* what an item reads */
+	int   proof;                         /* how proof.c shows that it is right */
+	int   k;                             /* error bound that the scheme states, or 0: counted */
 } Dag;
 
 int  op_operands(int op);
@@ -235,6 +254,24 @@ Poly next_group(Poly sorted, int *from, const int *vars);
 Ref  grouped(Dag *dag, const Leaves *leaves, Poly density, const int *outer);
 Ref  horner(Dag *dag, Poly a, int var);
 
+/* ---- constants.c: the numbers that are not rational, each as the nearest double exactly ------ */
+
+enum { LEGENDRE_MAX = 51, JACOBI_MAX = 18 }; /* nodes: cubics of MAX_DEGREE, conics of it */
+enum { NUMBER_PI, NUMBER_HALF_LN2, NUMBER_SQRT_HALF, NUMBERS };
+typedef struct { int count; const Rat *coef; } Series;   /* lowest power first */
+
+Rat  number(int which);
+/* Nodes t >= 0 of [-1,1], ascending, -t has the same weight; returns how many, (nodes + 1) / 2. */
+int  gauss_legendre(int nodes, Rat *node, Rat *weight);
+/* Weight function sqrt(1 - s) on [0,1], ascending; returns nodes. */
+int  gauss_jacobi(int nodes, Rat *node, Rat *weight);
+int  gauss_jacobi_nodes(int degree, int is_float);   /* that moments of conics, 0 <= w <= 3, take */
+/* K(tau) = (atanh(sqrt tau) / sqrt tau - 1) / tau, 0 <= tau <= (3 - 2 sqrt 2)^2 */
+Series series_atanh(int is_float);
+/* E(w - 1), 0 <= w <= 2, where a conic's f(w) = g + g E(w - 1), g = w / (w + conic_shift) */
+Series series_conic(int is_float);
+extern const Rat conic_shift;
+
 /* ---- bound.c: how far rounding can carry a program off -------------------------------------- */
 
 enum { WORTHLESS = 1 << 20 };                /* the largest k; no scheme so bad is taken */
@@ -242,6 +279,8 @@ typedef struct { int k; int repeat; } Bound; /* error <= gamma_k W; repeat: roun
 
 Bound  bound_edge(const Dag *dag, const Integral *want);
 Bound *bound_ring(const Dag *dag, const Dag *finish, const Integral *want, int count);
+/* W is the program's own sum with every term positive: the longest path of roundings. */
+Bound  bound_path(const Dag *dag);
 
 /* ---- moments.c: schemes for all moments to a degree ------------------------------------------ */
 
@@ -253,10 +292,37 @@ Dag *moments_vertex(Rat value);              /* a constant integrand */
 /* Sums of all terms with positive sign, for the error bound of the moments to a degree. */
 Dag *moments_magnitudes(int degree);
 Integral moments_vertex_magnitude(void);     /* what degree 0 of them is */
+/* The forms of all moments to a degree; that of x^m y^n takes `factor` times the next accumulator. */
+void finish_room(Dag *dag, int degree);
+void finish_next(Dag *dag, int m, int n, Rat factor);
 
 /* ---- compensated.c: the area in twice the precision ------------------------------------------ */
 
 Dag *compensated_area(void);
+
+/* ---- curves.c: quadratic and cubic edges ----------------------------------------------------- */
+
+Dag *curve_area_edge(int window);            /* of one edge, line too: negated when reversed */
+Dag *curve_monomial_edge(int window, int m, int n);
+Dag *curve_moments(int window, int degree);  /* all moments to a degree, accumulated */
+int  curve_nodes(int window, int degree);    /* of the Gauss-Legendre rule that is exact */
+
+/* ---- logarithm.c: for what is not polynomial ------------------------------------------------- */
+
+/* 1/2 log z = atanh((z-1)/(z+1)), z >= 1, where k > 0; K of tau, or of what is left of z where
+ * k = 0 or tau is NONE. */
+typedef struct { Ref k, half, series; } Logarithm;
+Logarithm logarithm(Dag *dag, int is_float, Ref z, Ref tau);
+Ref series_value(Dag *dag, Series series, Ref x);    /* Horner */
+
+/* ---- distance.c: powers of the distance, and the closure sum --------------------------------- */
+
+Dag *distance_power(int power, int is_float);   /* -1, 1, 3, 5 */
+Dag *closure_sum(void);
+
+/* ---- conic.c: the cap between a conic edge and its chord ------------------------------------- */
+
+Dag *conic_cap(int degree, int is_float);
 
 /* ---- scheme.c: ways to evaluate, and the choice by cost -------------------------------------- */
 
@@ -285,28 +351,33 @@ void program_dump(Text *text, const Program *program);
 
 /* ---- proof.c: the always-on checks --------------------------------------- */
 
-/* error <= gamma_k W; repeat: roundings per further item */
-
 void   prove_dag(const Dag *dag, const Integral *want, int count, const char *pass);
 void   prove_program(const Program *program, const Integral *want, int count);
 void   prove_finish(const Program *finish, const Dag *ring);
 
+/* ---- modular.c: the check of sums over quadrature nodes -------------------------------------- */
+
+/* The moments to degree m, or the one of x^m y^n if the program has no finish. */
+void   prove_quadrature(const Program *program, int m, int n);
+
 /* ---- kernel.c: the list of kernels of a request, built and proven ---------------------------- */
 
 typedef struct {                             /* one single-edge function */
-	const Integrand *what;
-	Integral integral;
+	const Integrand *what;               /* NULL: area */
+	int window;
+	Integral integral;                   /* of a line edge */
 	Program  program;                    /* portable: reversal must negate it bit for bit */
 	Bound    bound;
 } Edge;
 
 typedef struct {                             /* one family member that runs over rings */
 	const char *name;                    /* moments_8, x4y2, soft */
-	const char *family;                  /* moments, magnitudes, compensated, monomial, polynomial */
+	const char *family;                  /* moments, quad, radius, ... : see kernel.c */
 	int m, n;                            /* degree 0 of a family, exponents, -1 -1 */
 	int outputs, accumulators, turns, window;    /* accumulators of all turns */
 	const char *scheme;
-	Program portable, fused, finish;
+	Program portable[2], fused[2];       /* double, float */
+	Program finish;
 	Bound *bound;                        /* per output, of the portable program */
 	Bound  worst;
 } Ring;
@@ -314,7 +385,8 @@ typedef struct {                             /* one family member that runs over
 typedef struct { Edge *edge; int edges; Ring *ring; int rings; } Kernels;
 
 /* `letters` choose what is dumped into `text`: p polynomials, d dag, f fused, s schedule. */
-Edge build_edge(const Integrand *what);
+Edge build_edge(const Integrand *what);      /* a line edge */
+const char *edge_name(const Edge *edge);     /* line_x4y2, cubic_area */
 Kernels build_kernels(const Request *request, void (*progress)(int done, int of),
 	const char *letters, Text *text);
 
@@ -371,6 +443,7 @@ void emit_banner(Text *text, const char *name, const char *purpose, const Reques
 void emit_wrapped(Text *text, const char *start, const char *margin, const char *words);
 /* Broken at operators if it is too wide. */
 void emit_statement(Text *text, int indent, const char *statement);
+char *emit_divisions(const Program *program);   /* ", 3 div or sqrt", or nothing */
 char *emit_place(const Load *load, int turn);  /* index of what item i + turn * step reads */
 char *emit_spelling(const char *pattern, const Style *style, char *const *argument);
 void emit_program(Text *text, const Program *program, const Style *style);
@@ -379,7 +452,8 @@ void emit_stored(Text *text, const Program *program, const Style *style, int ite
 	void (*open)(const void *to, int accumulator),
 	void (*close)(const void *to, int accumulator), const void *to);
 
-/* One ew_line_NAME with its comment, and the files of all. */
+/* One ew_line_NAME or ew_cubic_NAME with its comment, and the files of all. */
+char *emit_parameters(int window, const char *real);   /* "double x0, double y0, ..." */
 void emit_edge(Text *text, const Edge *edge, const Precision *precision);
 void emit_edges(Files *files, const Request *request, const Kernels *kernels);
 void emit_show(Text *text, const Integrand *monomial, const char *format_name);   /* --show */
@@ -393,6 +467,8 @@ int  emit_has_item(const Ring *ring);          /* does that never leave the regi
 void emit_vector_item(Text *text, const Ring *ring, const Target *target,
 	const Precision *precision);
 void emit_rings(Files *files, const Request *request, const Kernels *kernels);
+/* The beginning of edgewise_kernels.h. */
+void emit_environment(Text *text, const Request *request);
 /* edgewise_kernels.h, edgewise.h, and the manifest (JSON, all but the files). */
 void emit_list(Files *files, const Request *request, const Kernels *kernels);
 void emit_header(Files *files, const Request *request, const Kernels *kernels);

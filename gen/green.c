@@ -32,24 +32,47 @@ static Poly integrate(Poly a)
 	return poly_collect(term, a.count);
 }
 
-static Poly along(int start, int end)
+/* C(p, i) s^(p-i) t^i: Bernstein polynomials. */
+static Poly bernstein(int p, int i)
 {
-	return poly_add(poly_mul(poly_var(VAR_S), poly_var(start)),
-		poly_mul(poly_var(VAR_T), poly_var(end)));
+	Poly value = poly_mul(poly_pow(poly_var(VAR_S), p - i), poly_pow(poly_var(VAR_T), i));
+	return poly_scale(value, rat(int_binomial(p, i), 1));
 }
 
-/* 1/(m+n+2) int x^m y^n dt along the line, for every term of the integrand. */
-static Poly line_density(Poly integrand)
+/* A coordinate of the curve, `slope` times differentiated by t. */
+static Poly on_curve(int points, int first, int slope)
+{
+	Poly sum = poly_zero();
+	const int p = points - 1 - slope;
+	for (int i = 0; i <= p; ++i) {
+		Poly value = poly_var(first + 2 * i);
+		if (slope)
+			value = poly_scale(poly_sub(poly_var(first + 2 * i + 2), value),
+				rat(points - 1, 1));
+		sum = poly_add(sum, poly_mul(value, bernstein(p, i)));
+	}
+	return sum;
+}
+
+/* The integrand at a point of the edge, each term x^m y^n over m + n + 2. */
+static Poly along_edge(Poly integrand, Poly x, Poly y)
 {
 	static const int xy[] = { VAR_X, VAR_Y };
-	const Poly line[] = { along(VAR_X0, VAR_X1), along(VAR_Y0, VAR_Y1) };
+	const Poly point[] = { x, y };
 	Term *term = allocate((size_t)integrand.count * sizeof(Term));
 	for (int i = 0; i < integrand.count; ++i) {
 		Mono mono = integrand.term[i].mono;
 		int degree = mono_power(mono, VAR_X) + mono_power(mono, VAR_Y);
 		term[i] = (Term){ mono, rat_div(integrand.term[i].coef, rat(degree + 2, 1)) };
 	}
-	return integrate(poly_substitute((Poly){ integrand.count, term }, xy, line, 2));
+	return poly_substitute((Poly){ integrand.count, term }, xy, point, 2);
+}
+
+/* 1/(m+n+2) int x^m y^n dt along the line, for every term of the integrand. */
+static Poly line_density(Poly integrand)
+{
+	Poly x = on_curve(2, VAR_X0, 0), y = on_curve(2, VAR_Y0, 0);
+	return integrate(along_edge(integrand, x, y));
 }
 
 Integral green_line(Poly integrand)
@@ -59,4 +82,12 @@ Integral green_line(Poly integrand)
 	integral.value = poly_mul(green_cross(), integral.density);
 	integral.magnitude = poly_mul(poly_abs(green_cross()), line_density(poly_abs(integrand)));
 	return integral;
+}
+
+Poly green_curve(int points, Poly integrand)
+{
+	Poly x = on_curve(points, VAR_X0, 0), y = on_curve(points, VAR_Y0, 0);
+	Poly dx = on_curve(points, VAR_X0, 1), dy = on_curve(points, VAR_Y0, 1);
+	Poly turn = poly_sub(poly_mul(x, dy), poly_mul(y, dx));
+	return integrate(poly_mul(along_edge(integrand, x, y), turn));
 }

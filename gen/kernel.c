@@ -1,9 +1,15 @@
-/* kernel.c - the list of kernels of a request, each built, proven and bounded;
- * the pipeline in two short functions.
+/* kernel.c - the list of kernels of a request, each built, proven and bounded.
  *
- * Precisions share a program: only constants and the name of the type differ. Targets without FMA
- * run the portable program, the others the fused one. The finish program of a ring is the same
- * for all. */
+ * Precisions share a program, only the type differs, unless it holds constants that are not
+ * rational. Targets without FMA run the portable program, the others the fused one. The finish
+ * program of a ring is the same for all. Families:
+ *
+ *     moments, magnitudes, compensated    of rings, to each degree; what bounds them; Dot2
+ *     line, quad, conic, cubic            moments of edges one by one, m the degree; a conic's are
+ *                                         those of the cap beyond its chord
+ *     radius                              power m of the distance
+ *     closure                             x0 y0 - x1 y1
+ *     monomial, polynomial                one integrand over rings */
 #include "gen.h"
 
 /* p polynomials, d dag, f fused, s schedule */
@@ -49,25 +55,57 @@ static Program scheduled(const Dump *dump, const char *name, const char *what, c
 	return program;
 }
 
-static Edge dumped_edge(const Integrand *what, const Dump *dump)
+/* A curve's function of one edge, area or one monomial: an exact polynomial, or a sum over nodes. */
+static void build_curve_edge(Edge *edge, const Dag *dag, const char *name, const Dump *dump)
 {
-	Edge edge = { .what = what, .integral = green_line(what->integrand) };
-	const char *name = format("line_%s", what->name);
-	Dag *dag = scheme_edge(&edge.integral);
-	dump_polynomials(dump, name, &edge.integral, 1);
+	const Integrand *what = edge->what;
 	dump_dag(dump, 'd', name, dag);
-	prove_dag(dag, &edge.integral, 1, "scheme");
-	if (!dag_reverses(dag))
+	if (dag->proof == PROOF_QUADRATURE) {
+		edge->program = schedule(dag);
+		prove_quadrature(&edge->program, what->m, what->n);
+	} else {
+		Poly one = poly_const(rat(1, 1));
+		const Integral want = { .value = green_curve(window_points(edge->window), one) };
+		prove_dag(dag, &want, 1, "scheme");
+		edge->program = scheduled(dump, name, "portable", dag, &want, 1);
+	}
+	edge->bound = bound_path(dag);
+}
+
+static const char *const window_names[WINDOWS] = { "line", "vertex", "quad", "conic", "cubic" };
+
+const char *edge_name(const Edge *edge)
+{
+	return format("%s_%s", window_names[edge->window], edge->what ? edge->what->name : "area");
+}
+
+static Edge dumped_edge(const Integrand *what, int window, const Dump *dump)
+{
+	Edge edge = { .what = what, .window = window };
+	const char *name = edge_name(&edge);
+	Dag *dag;
+	if (window != WINDOW_LINE || !what) {
+		dag = what ? curve_monomial_edge(window, what->m, what->n)
+			: curve_area_edge(window);
+		build_curve_edge(&edge, dag, name, dump);
+	} else {
+		edge.integral = green_line(what->integrand);
+		dag = scheme_edge(&edge.integral);
+		dump_polynomials(dump, name, &edge.integral, 1);
+		dump_dag(dump, 'd', name, dag);
+		prove_dag(dag, &edge.integral, 1, "scheme");
+		edge.program = scheduled(dump, name, "portable", dag, &edge.integral, 1);
+		edge.bound = bound_edge(dag, &edge.integral);
+	}
+	if (dag->proof == PROOF_POLYNOMIAL && !dag_reverses(dag))
 		bug("swapping the ends of the edge does not negate %s bit for bit", name);
-	edge.program = scheduled(dump, name, "portable", dag, &edge.integral, 1);
-	edge.bound = bound_edge(dag, &edge.integral);
 	return edge;
 }
 
 Edge build_edge(const Integrand *what)
 {
 	const Dump silent = { NULL, NULL };
-	return dumped_edge(what, &silent);
+	return dumped_edge(what, WINDOW_LINE, &silent);
 }
 
 static void worsen(Bound *worst, Bound bound)
@@ -76,15 +114,42 @@ static void worsen(Bound *worst, Bound bound)
 	worst->repeat = bound.repeat > worst->repeat ? bound.repeat : worst->repeat;
 }
 
-static void build_ring(Ring *ring, const Dag *dag, const Integral *want, const Dump *dump)
+/* One precision: portable and fused program, each proven in the way its scheme allows. */
+static void build_programs(Ring *ring, int is_float, const Dag *dag, const Integral *want,
+	const Dump *dump)
 {
+	const int exact = dag->proof == PROOF_POLYNOMIAL;
 	dump_dag(dump, 'd', ring->name, dag);
-	prove_dag(dag, want, ring->outputs, "scheme");
 	Dag *fused = fuse(dag);
 	dump_dag(dump, 'f', ring->name, fused);
-	prove_dag(fused, want, ring->outputs, "fuse");
-	ring->portable = scheduled(dump, ring->name, "portable", dag, want, ring->outputs);
-	ring->fused = scheduled(dump, ring->name, "fma", fused, want, ring->outputs);
+	if (exact) {
+		prove_dag(dag, want, ring->outputs, "scheme");
+		prove_dag(fused, want, ring->outputs, "fuse");
+		ring->portable[is_float] = scheduled(dump, ring->name, "portable", dag, want,
+			ring->outputs);
+		ring->fused[is_float] = scheduled(dump, ring->name, "fma", fused, want,
+			ring->outputs);
+		return;
+	}
+	ring->portable[is_float] = schedule(dag);
+	ring->fused[is_float] = schedule(fused);
+	if (dag->proof == PROOF_QUADRATURE) {
+		prove_quadrature(&ring->portable[is_float], ring->m, 0);
+		prove_quadrature(&ring->fused[is_float], ring->m, 0);
+	}
+}
+
+/* From the programs of double and of float, which are the same unless they hold other constants. */
+static void build_ring(Ring *ring, const Dag *dag, const Dag *as_float, const Integral *want,
+	const Dump *dump)
+{
+	build_programs(ring, 0, dag, want, dump);
+	if (as_float != dag) {
+		build_programs(ring, 1, as_float, want, dump);
+	} else {
+		ring->portable[1] = ring->portable[0];
+		ring->fused[1] = ring->fused[0];
+	}
 	Dag *finish = scheme_finish(dag);
 	ring->finish = schedule(finish);
 	prove_finish(&ring->finish, dag);
@@ -97,10 +162,21 @@ static void build_ring(Ring *ring, const Dag *dag, const Integral *want, const D
 /* All but the compensated area, whose bound is not a number of roundings. */
 static void build_bounded_ring(Ring *ring, const Dag *dag, const Integral *want, const Dump *dump)
 {
-	build_ring(ring, dag, want, dump);
+	build_ring(ring, dag, dag, want, dump);
 	ring->bound = bound_ring(dag, ring->finish.dag, want, ring->outputs);
 	for (int j = 0; j < ring->outputs; ++j)
 		worsen(&ring->worst, ring->bound[j]);
+}
+
+/* With the bound that the scheme states, or the longest path of roundings. */
+static void build_other_ring(Ring *ring, const Dag *dag, const Dag *as_float, const Integral *want,
+	const Dump *dump)
+{
+	build_ring(ring, dag, as_float, want, dump);
+	ring->worst = dag->k ? (Bound){ dag->k, 1 } : bound_path(dag);
+	ring->bound = allocate((size_t)ring->outputs * sizeof *ring->bound);
+	for (int j = 0; j < ring->outputs; ++j)
+		ring->bound[j] = ring->worst;
 }
 
 static Ring *next_ring(Kernels *kernels, const char *name, const char *family, int m, int n,
@@ -114,7 +190,7 @@ static Ring *next_ring(Kernels *kernels, const char *name, const char *family, i
 static void build_integrand(Kernels *all, const Integrand *what, const char *scheme,
 	const Dump *dump)
 {
-	Edge edge = dumped_edge(what, dump);
+	Edge edge = dumped_edge(what, WINDOW_LINE, dump);
 	all->edge[all->edges++] = edge;
 	const char *family = what->m < 0 ? "polynomial" : "monomial";
 	Ring *ring = next_ring(all, what->name, family, what->m, what->n, 1);
@@ -130,6 +206,12 @@ static Integral *all_integrals(const Request *request)
 	for (int i = 0; i < count && request->moments >= 0; ++i)
 		want[i] = green_line(request->monomial[i].integrand);
 	return want;
+}
+
+static void build_compensated(Ring *ring, const Integral *want, const Dump *dump)
+{
+	const Dag *dag = compensated_area();
+	build_ring(ring, dag, dag, want, dump);
 }
 
 /* All moments to each degree, the magnitudes that bound them, and the compensated area. */
@@ -153,24 +235,128 @@ static void build_families(Kernels *all, const Request *request, const Dump *dum
 			outputs), moments_magnitudes(degree), degree ? terms : &vertex, dump);
 	}
 	if (request->moments >= 0)
-		build_ring(next_ring(all, "compensated", "compensated", 0, 0, 1),
-			compensated_area(), want, dump);
+		build_compensated(next_ring(all, "compensated", "compensated", 0, 0, 1), want, dump);
+}
+
+/* ---- every kind of edge ---- */
+
+/* Kernels of moments of curves are long: only these degrees have one, and the highest. */
+static int has_kernel(const Request *request, int degree)
+{
+	return degree <= 2 || degree % 4 == 0 || degree == 6 || degree == request->curves;
+}
+
+static void build_curves(Kernels *all, const Request *request, int window, const Dump *dump)
+{
+	const char *kind = window_names[window];
+	for (int degree = 0; degree <= request->curves; ++degree) {
+		if (!has_kernel(request, degree))
+			continue;
+		const int outputs = (degree + 1) * (degree + 2) / 2;
+		Ring *ring = next_ring(all, format("%s_%d", kind, degree), kind, degree, 0, outputs);
+		if (window == WINDOW_CONIC) {
+			build_other_ring(ring, conic_cap(degree, 0), conic_cap(degree, 1), NULL, dump);
+			continue;
+		}
+		Integral *want = allocate((size_t)outputs * sizeof *want);
+		for (int j = 0; j < outputs && degree < 2; ++j)
+			want[j].value = green_curve(window_points(window),
+				request->monomial[j].integrand);
+		const Dag *dag = curve_moments(window, degree);
+		build_other_ring(ring, dag, dag, want, dump);
+	}
+}
+
+/* Line edges one by one: the moments of rings serve but for degree 0, the vertex form. */
+static void build_line_area(Kernels *all, const Dump *dump)
+{
+	const Integral want = { .value = green_curve(2, poly_const(rat(1, 1))) };
+	const Dag *dag = curve_moments(WINDOW_LINE, 0);
+	build_other_ring(next_ring(all, "line_0", "line", 0, 0, 1), dag, dag, &want, dump);
+}
+
+static void build_distance(Kernels *all, const Dump *dump)
+{
+	static const struct { int power; const char *name; } radius[] = {
+		{ -1, "radius_inverse" }, { 1, "radius_1" }, { 3, "radius_3" }, { 5, "radius_5" },
+	};
+	for (int i = 0; i < LENGTH(radius); ++i) {
+		Dag *dag = distance_power(radius[i].power, 0);
+		Dag *as_float = distance_power(radius[i].power, 1);
+		if (!dag_reverses(dag) || !dag_reverses(fuse(dag)))
+			bug("swapping the ends of the edge does not negate %s bit for bit",
+				radius[i].name);
+		build_other_ring(next_ring(all, radius[i].name, "radius", radius[i].power, 0, 1),
+			dag, as_float, NULL, dump);
+	}
+}
+
+static void build_closure(Kernels *all, const Dump *dump)
+{
+	const int start[] = { VAR_X0, VAR_Y0 }, end[] = { VAR_X1, VAR_Y1 };
+	Poly sum = poly_sub(poly_mul(poly_var(start[0]), poly_var(start[1])),
+		poly_mul(poly_var(end[0]), poly_var(end[1])));
+	const Integral want = { .value = sum };
+	const Dag *dag = closure_sum();
+	build_other_ring(next_ring(all, "closure", "closure", 0, 0, 1), dag, dag, &want, dump);
+}
+
+static const struct { unsigned edge; int window; } curve_kinds[] = {
+	{ EDGE_QUAD, WINDOW_QUAD }, { EDGE_CONIC, WINDOW_CONIC }, { EDGE_CUBIC, WINDOW_CUBIC },
+};
+
+static void build_edge_kinds(Kernels *all, const Request *request, const Dump *dump,
+	void (*progress)(int done, int of), int rings)
+{
+	if (request->families & FAMILY_CURVES)
+		build_line_area(all, dump);
+	for (int i = 0; i < LENGTH(curve_kinds) && request->families & FAMILY_CURVES; ++i)
+		if (request->edges & curve_kinds[i].edge) {
+			progress(all->rings, rings);
+			build_curves(all, request, curve_kinds[i].window, dump);
+		}
+	if (request->families & FAMILY_DISTANCE)
+		build_distance(all, dump);
+	if (request->families & FAMILY_CLOSURE)
+		build_closure(all, dump);
+}
+
+/* Functions of one edge: areas, and the monomials asked for by name. */
+static void build_curve_edges(Kernels *all, const Request *request, const Dump *dump)
+{
+	if (request->families & FAMILY_MOMENTS)
+		all->edge[all->edges++] = dumped_edge(NULL, WINDOW_LINE, dump);
+	for (int i = 0; i < LENGTH(curve_kinds); ++i) {
+		const int window = curve_kinds[i].window;
+		if (!(request->edges & curve_kinds[i].edge) || window == WINDOW_CONIC)
+			continue;
+		if (request->families & FAMILY_CURVES)
+			all->edge[all->edges++] = dumped_edge(NULL, window, dump);
+		for (int k = 0; k < request->monomials; ++k)
+			if (request->monomial[k].by_name)
+				all->edge[all->edges++] = dumped_edge(&request->monomial[k], window,
+					dump);
+	}
 }
 
 Kernels build_kernels(const Request *request, void (*progress)(int done, int of),
 	const char *letters, Text *text)
 {
 	const Dump dump = { letters, text };
-	const int edges = request->monomials + request->polynomials;
-	const int rings = edges + 2 * (request->moments + 1) + (request->moments >= 0);
+	const int lines = request->edges & EDGE_LINE ? request->monomials : 0;
+	const int integrands = lines + request->polynomials;
+	const int edges = 4 * request->monomials + request->polynomials + 3;
+	const int rings = integrands + 5 * (request->moments + 1) + 8;
 	Kernels all = {
 		allocate((size_t)edges * sizeof(Edge)), 0, allocate((size_t)rings * sizeof(Ring)), 0
 	};
 	build_families(&all, request, &dump, progress, rings);
-	for (int i = 0; i < edges; ++i) {
+	build_edge_kinds(&all, request, &dump, progress, rings);
+	build_curve_edges(&all, request, &dump);
+	for (int i = 0; i < integrands; ++i) {
 		progress(all.rings, rings);
-		build_integrand(&all, i < request->monomials ? &request->monomial[i]
-			: &request->polynomial[i - request->monomials], request->scheme, &dump);
+		build_integrand(&all, i < lines ? &request->monomial[i]
+			: &request->polynomial[i - lines], request->scheme, &dump);
 	}
 	progress(rings, rings);
 	return all;

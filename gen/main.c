@@ -12,10 +12,9 @@ typedef struct {
 	const char *single_header, *manifest, *depfile, *show, *format, *dump;
 	const char *emission, *writing;   /* an option given that is for an emission; that writes */
 	unsigned seen;                               /* bits of the grammar options given */
-	int families, runtime, list;
+	int runtime, list;
 } Options;
 
-static const char *const FAMILIES[] = { "moments" };
 static const char *const PRECISIONS[] = { "double", "float" };
 
 static const char USAGE[] =
@@ -26,10 +25,12 @@ static const char USAGE[] =
 	"\n"
 	"what to emit (nothing asked: the library with all moments to degree 4)\n"
 	"  --max-degree N         the library with all moments x^m y^n, m + n <= N (0..32)\n"
-	"  --families LIST        only these: moments\n"
+	"  --families LIST        only these: moments,curves,distance,closure (curves brings "
+	"moments)\n"
 	"  --monomial xMyN        one monomial (repeatable)\n"
 	"  --polynomial NAME=EXPR a polynomial in x and y, such as soft='(1-x)*(1-y)' "
 	"(repeatable)\n"
+	"  --edges LIST           line,quad,conic,cubic (default: all; of monomials: line)\n"
 	"  --precision LIST       double,float (default: both)\n"
 	"  --targets LIST         portable,fma,avx2,avx512,neon (default: all; portable always)\n"
 	"  --scheme NAME          how rings are evaluated, where that scheme applies "
@@ -52,7 +53,7 @@ static const char USAGE[] =
 	"  --format FORMAT        of --show: text, latex, json or c (default: text)\n"
 	"  -d LETTERS             dump after passes: p polynomials, d dag, f fused, s schedule; "
 	"nothing is written\n"
-	"  --list                 families, targets, precisions and schemes\n"
+	"  --list                 families, edges, targets, precisions and schemes\n"
 	"  --quiet, --verbose     say nothing, or name every file\n"
 	"  --help, --version\n"
 	"\n"
@@ -131,7 +132,7 @@ static int schemes(void)
 static int read_request(Options *o, const char *option, const char *value)
 {
 	static const char *const names[] = { "--max-degree", "--families", "--monomial",
-		"--polynomial", "--precision", "--targets", "--scheme" };
+		"--polynomial", "--precision", "--targets", "--scheme", "--edges" };
 	Request *request = &o->request;
 	int which = 0;
 	while (which < LENGTH(names) && strcmp(option, names[which]) != 0)
@@ -150,8 +151,7 @@ static int read_request(Options *o, const char *option, const char *value)
 		request->moments = spec_degree(value);
 		break;
 	case 1:
-		spec_list(option, value, FAMILIES, LENGTH(FAMILIES));
-		o->families = 1;
+		request->families = spec_list(option, value, family_names, FAMILIES);
 		break;
 	case 2:
 		add_integrand(&request->monomial, &request->monomials, spec_monomial(value));
@@ -170,6 +170,9 @@ static int read_request(Options *o, const char *option, const char *value)
 			fatal(EXIT_USAGE, "--scheme takes one word, not '%s'", value);
 		spec_list(option, value, scheme_names(), schemes());
 		request->scheme = value;
+		break;
+	case 7:
+		request->edges = spec_list(option, value, edge_names, EDGES);
 		break;
 	}
 	return 1;
@@ -271,7 +274,8 @@ static void print_words(const char *title, const char *const *words, int count)
 
 static void print_list(void)
 {
-	print_words("families", FAMILIES, LENGTH(FAMILIES));
+	print_words("families", family_names, FAMILIES);
+	print_words("edges", edge_names, EDGES);
 	print_words("targets", target_names, TARGETS);
 	print_words("precisions", PRECISIONS, LENGTH(PRECISIONS));
 	print_words("schemes", scheme_names(), schemes());
@@ -297,8 +301,9 @@ static int emit(const Options *o)
 	emit_header(&files, request, &kernels);
 	emit_list(&files, request, &kernels);
 	emit_edges(&files, request, &kernels);
-	emit_rings(&files, request, &kernels);
-	if (o->runtime)
+	if (spec_has_rings(request))
+		emit_rings(&files, request, &kernels);
+	if (o->runtime && spec_has_rings(request))
 		bundle_runtime(&files);
 	bundle_rename(&files, request->prefix);
 	Text manifest = bundle_manifest(&files, request, &kernels);
@@ -336,8 +341,6 @@ int main(int argc, char **argv)
 	if (o.list) {
 		print_list();
 	} else {
-		if (o.families && o.request.moments < 0)
-			o.request.moments = 4;
 		spec_complete(&o.request);
 		status = emit(&o);
 	}

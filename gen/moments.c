@@ -18,14 +18,13 @@ static int moment_index(int m, int n)
 	return (m + n) * (m + n + 1) / 2 + n;
 }
 
-static void finish_room(Dag *dag, int degree)
+void finish_room(Dag *dag, int degree)
 {
 	dag->finishes = moment_index(0, degree) + 1;
 	dag->finish = allocate((size_t)dag->finishes * sizeof *dag->finish);
 }
 
-/* The moment of x^m y^n takes `factor` times the accumulator that comes next. */
-static void finish_next(Dag *dag, int m, int n, Rat factor)
+void finish_next(Dag *dag, int m, int n, Rat factor)
 {
 	Poly *form = &dag->finish[moment_index(m, n)];
 	*form = poly_add(*form, poly_mono(factor, mono_accumulator(dag->outs)));

@@ -282,7 +282,7 @@ Integrand spec_monomial(const char *text)
 			"beyond it the exact rationals no longer fit 128 bits", text, m + n,
 			MAX_DEGREE);
 	Poly integrand = poly_mono(rat(1, 1), mono_var(VAR_X, m) + mono_var(VAR_Y, n));
-	return (Integrand){ format("x%dy%d", m, n), m, n, integrand, format("x^%d y^%d", m, n) };
+	return (Integrand){ format("x%dy%d", m, n), m, n, integrand, format("x^%d y^%d", m, n), 0 };
 }
 
 static int is_monomial_name(const char *name)
@@ -304,7 +304,8 @@ Integrand spec_polynomial(const char *text)
 	size_t size = strlen(name);
 	char *stem = copy_string(name, name[size - 1] == 'f' ? size - 1 : size);
 	static const char *const families[] = {
-		"line_", "quad_", "conic_", "cubic_", "ring_", "filter_", "cpu_", "moments_", "ew_",
+		"line_", "quad_", "conic_", "cubic_", "path_", "radius_", "ring_", "filter_", "cpu_",
+		"moments_", "ew_",
 		"edgewise"
 	};
 	int taken = is_listed(LIBRARY, name) || is_listed(LIBRARY, stem) || is_monomial_name(name);
@@ -321,7 +322,7 @@ Integrand spec_polynomial(const char *text)
 		syntax_error(&reader, reader.at, "expected an operator or the end");
 	if (integrand.count == 0)
 		syntax_error(&reader, 0, "this polynomial is 0 everywhere");
-	return (Integrand){ name, -1, -1, integrand, poly_text(integrand, " ") };
+	return (Integrand){ name, -1, -1, integrand, poly_text(integrand, " "), 0 };
 }
 
 unsigned spec_list(const char *option, const char *text, const char *const *words, int count)
@@ -368,14 +369,28 @@ static void check_names(const Request *request)
 		}
 }
 
+const char *const family_names[FAMILIES] = { "moments", "curves", "distance", "closure" };
+const char *const edge_names[EDGES] = { "line", "quad", "conic", "cubic" };
 const char *const target_names[TARGETS] = { "portable", "fma", "avx2", "avx512", "neon" };
 
-static const char *canonical_command(const Request *request)
+static void add_list(Text *text, const char *option, unsigned bits, const char *const *names,
+	int count)
+{
+	for (int i = 0, first = 1; i < count; ++i)
+		if (bits & 1u << i) {
+			text_add(text, first ? " %s %s" : "%.0s,%s", option, names[i]);
+			first = 0;
+		}
+}
+
+static const char *canonical_command(const Request *request, unsigned families, unsigned edges)
 {
 	Text text = { 0 };
 	text_add(&text, "gen");
 	if (request->moments >= 0)
 		text_add(&text, " --max-degree %d", request->moments);
+	add_list(&text, "--families", families, family_names, FAMILIES);
+	add_list(&text, "--edges", edges, edge_names, EDGES);
 	for (int i = 0; i < request->monomials; ++i)
 		text_add(&text, " --monomial %s", request->monomial[i].name);
 	for (int i = 0; i < request->polynomials; ++i)
@@ -384,9 +399,8 @@ static const char *canonical_command(const Request *request)
 	if (request->precisions != (PRECISION_DOUBLE | PRECISION_FLOAT))
 		text_add(&text, " --precision %s",
 			request->precisions == PRECISION_FLOAT ? "float" : "double");
-	for (int i = 0; i < TARGETS && request->targets != ALL_TARGETS; ++i)
-		if (request->targets & 1u << i)
-			text_add(&text, "%s%s", i ? "," : " --targets ", target_names[i]);
+	if (request->targets != ALL_TARGETS)
+		add_list(&text, "--targets", request->targets, target_names, TARGETS);
 	if (request->scheme)
 		text_add(&text, " --scheme %s", request->scheme);
 	if (request->prefix)
@@ -394,22 +408,64 @@ static const char *canonical_command(const Request *request)
 	return text_take(&text);
 }
 
+int spec_has_rings(const Request *request)
+{
+	return request->families || request->polynomials
+		|| (request->monomials && request->edges & EDGE_LINE);
+}
+
+/* Which families and edges: all of the library, unless only some integrands are asked for. */
+static void complete_families(Request *request)
+{
+	const int asked = request->edges != 0;
+	if (!request->families && (request->moments >= 0
+	    || (request->monomials == 0 && request->polynomials == 0)))
+		request->families = ALL_FAMILIES;
+	if (request->families & FAMILY_CURVES)
+		request->families |= FAMILY_MOMENTS;
+	if (request->moments >= 0 && !(request->families & FAMILY_MOMENTS))
+		fatal(EXIT_USAGE, "--max-degree goes with the families moments and curves");
+	if (request->families & FAMILY_MOMENTS && request->moments < 0)
+		request->moments = 4;
+	if (!request->edges)
+		request->edges = request->families & FAMILY_CURVES ? ALL_EDGES : EDGE_LINE;
+	if (request->polynomials && !(request->edges & EDGE_LINE))
+		fatal(EXIT_USAGE, "--polynomial: polynomials are integrated over line edges; add line "
+			"to --edges");
+	if (request->monomials && !request->families && request->edges & EDGE_CONIC)
+		fatal(EXIT_USAGE, "--monomial: one monomial over conics is not emitted alone; use "
+			"--max-degree");
+	if (request->families)
+		request->edges |= EDGE_LINE;
+	if (request->edges == EDGE_LINE)
+		request->families &= ~(unsigned)FAMILY_CURVES;
+	request->curves = -1;
+	if (request->families & FAMILY_CURVES)
+		request->curves = asked || request->moments < CURVE_DEGREE ? request->moments
+			: CURVE_DEGREE;
+}
+
 void spec_complete(Request *request)
 {
 	check_names(request);
-	if (request->moments < 0 && request->monomials == 0 && request->polynomials == 0)
-		request->moments = 4;
 	request->targets |= TARGET_PORTABLE;
-	request->command = canonical_command(request);
+	const unsigned families = request->families, edges = request->edges;
+	complete_families(request);
+	request->command = canonical_command(request, families, edges);
 	int family = request->moments < 0 ? 0 : (request->moments + 1) * (request->moments + 2) / 2;
 	int count = 0;
 	Integrand *all = allocate((size_t)(family + request->monomials) * sizeof *all);
 	for (int d = 0; d <= request->moments; ++d)
 		for (int n = 0; n <= d; ++n)
 			all[count++] = spec_monomial(format("x%dy%d", d - n, n));
-	for (int i = 0; i < request->monomials; ++i)
-		if (request->monomial[i].m + request->monomial[i].n > request->moments)
-			all[count++] = request->monomial[i];
+	for (int i = 0; i < request->monomials; ++i) {
+		const Integrand *monomial = &request->monomial[i];
+		int at = (monomial->m + monomial->n) * (monomial->m + monomial->n + 1) / 2
+			+ monomial->n;
+		if (monomial->m + monomial->n > request->moments)
+			all[at = count++] = *monomial;
+		all[at].by_name = 1;
+	}
 	request->monomial = all;
 	request->monomials = count;
 }

@@ -1,0 +1,175 @@
+/* conic.c - area and moments of the cap between a conic edge and its chord.
+ *
+ * A conic has the weights 1, w, 1. Its cap, with T = 1/2 cross(p1 - p0, p2 - p0), has the area f(w) T,
+ *
+ *     f(w) = w (phi - w) / (1 - w^2),  phi = acos(w) / sqrt(1 - w^2)       (w > 1: acosh, w^2 - 1)
+ *
+ * f(0) = 0, f(1) = 2/3, f(inf) = 1. Up to w = 2 it is g + g E(w-1), g = w / (w + 11/16), with a short
+ * polynomial E (constants.c); beyond, 1 - (w acosh w - q) / (q D), q^2 = D = w^2 - 1. For
+ * -1 < w < 0 the arc is the complementary one: f(-w) = f(w) - pi w / D^(3/2). Below -1 the curve
+ * passes through infinity; the runtime refuses that.
+ *
+ * Moments, for 0 <= w <= 3 (the runtime halves other arcs first): p = m + X u + Y v with m the middle
+ * of the chord, u = (p2 - p0)/2 and v = p1 - m. The cap is X^2 <= R(Y) = (1 - s)(1 - tau s) for
+ * Y = s w/(1+w), 0 <= s <= 1, tau = (w-1)/(w+1). Odd powers of X vanish, for the others
+ *
+ *     int X^a Y^b = 2/(a+1) int R^((a+1)/2) Y^b dY,
+ *
+ * where sqrt(1-s) is the weight function of a Gauss-Jacobi rule and the rest is smooth: as many
+ * nodes as bring the truncation below the rounding (tests/constants.c). From there
+ * int x^m y^n X^a Y^b follows by x = m_x + X u_x + Y v_x, one factor at a time. With the chord's own
+ * moments, those of a line edge, this gives form 3 of the conic. Source: own derivation. */
+#include "gen.h"
+
+typedef struct { Ref area; Ref middle[2], u[2], v[2]; } Frame;   /* area: T */
+
+static Frame frame(Dag *dag)
+{
+	Frame f;
+	Ref half = dag_const(dag, rat(1, 2));
+	Ref a[2], b[2];
+	for (int axis = 0; axis < 2; ++axis) {
+		Ref p0 = dag_var(dag, VAR_X0 + axis), p1 = dag_var(dag, VAR_X1 + axis);
+		Ref p2 = dag_var(dag, VAR_X2 + axis);
+		a[axis] = dag_sub(dag, p1, p0);
+		b[axis] = dag_sub(dag, p1, p2);
+		f.middle[axis] = dag_mul(dag, half, dag_add(dag, p0, p2));
+		f.u[axis] = dag_mul(dag, half, dag_sub(dag, p2, p0));
+		f.v[axis] = dag_sub(dag, p1, f.middle[axis]);
+	}
+	Ref left = dag_mul(dag, a[1], b[0]), right = dag_mul(dag, a[0], b[1]);
+	f.area = dag_name(dag, dag_mul(dag, half, dag_sub(dag, left, right)), "area");
+	return f;
+}
+
+static Ref divide(Dag *dag, Ref a, Ref b)
+{
+	return dag_node(dag, OP_DIV, a, b, NONE);
+}
+
+/* f for |w| = u <= 2; x = u - 1. */
+static Ref near_f(Dag *dag, int is_float, Ref u, Ref x)
+{
+	Ref g = divide(dag, u, dag_add(dag, u, dag_const(dag, conic_shift)));
+	dag_name(dag, g, "g");
+	return dag_add(dag, g, dag_mul(dag, g, series_value(dag, series_conic(is_float), x)));
+}
+
+static Dag *cap_area(int is_float)
+{
+	Dag *dag = dag_new("conic");
+	dag->window = WINDOW_CONIC;
+	dag->proof = PROOF_NONE;
+	dag->k = 24;           /* f 8, one of T 4; for -1 < w < 0 twice the former, cancelling */
+	Ref one = dag_const(dag, rat(1, 1)), w = dag_var(dag, VAR_W);
+	Ref most = dag_const(dag, rat((Int)1 << 40, 1));        /* f(most) is 1 already */
+	Ref size = dag_unary(dag, OP_ABS, w);
+	Ref u = dag_name(dag, dag_choose(dag, dag_sub(dag, size, most), most, size), "u");
+	Ref x = dag_name(dag, dag_sub(dag, u, one), "x");
+	Ref y = dag_unary(dag, OP_ABS, x);
+	Ref d = dag_name(dag, dag_add(dag, y, dag_mul(dag, y, u)), "d");     /* |1 - w^2| */
+	Ref q = dag_name(dag, dag_unary(dag, OP_SQRT, d), "q");
+	const Logarithm log = logarithm(dag, is_float, dag_add(dag, u, q), NONE);
+	Ref whole = dag_add(dag, log.half, log.half);
+	Ref top = dag_choose(dag, w, dag_sub(dag, dag_mul(dag, u, whole), q),
+		dag_mul(dag, dag_const(dag, number(NUMBER_PI)), u));
+	Ref rest = dag_name(dag, divide(dag, top, dag_mul(dag, q, d)), "rest");
+	Ref near = dag_name(dag, near_f(dag, is_float, u, x), "near");
+	Ref far = dag_sub(dag, one, rest), opposite = dag_sub(dag, near, rest);
+	Ref beyond = dag_sub(dag, w, dag_const(dag, rat(2, 1)));
+	Ref negative = dag_sub(dag, u, w);
+	Ref f = dag_choose(dag, beyond, far, dag_choose(dag, negative, opposite, near));
+	finish_room(dag, 0);
+	finish_next(dag, 0, 0, rat(1, 1));
+	dag_accumulate(dag, dag_mul(dag, dag_name(dag, f, "f"), frame(dag).area));
+	return dag;
+}
+
+/* ---- moments ---- */
+
+enum { SIDE = MAX_DEGREE + 1 };
+
+typedef struct {
+	Dag *dag;
+	int degree;
+	Frame frame;
+	Ref cap[SIDE][SIDE];                 /* int X^a Y^b, even a */
+	Ref mixed[SIDE][SIDE][SIDE][SIDE];   /* int x^m y^n X^a Y^b, 0 is "not yet" */
+} Cap;
+
+static void add_cap_moments(Cap *cap, int is_float)
+{
+	Dag *dag = cap->dag;
+	Rat node[JACOBI_MAX], weight[JACOBI_MAX];
+	int nodes = gauss_jacobi(gauss_jacobi_nodes(cap->degree, is_float), node, weight);
+	Ref one = dag_const(dag, rat(1, 1)), w = dag_var(dag, VAR_W);
+	Ref above = dag_add(dag, w, one);
+	Ref tau = dag_name(dag, divide(dag, dag_sub(dag, w, one), above), "tau");
+	Ref top = dag_name(dag, divide(dag, w, above), "top");
+	Ref value[JACOBI_MAX], square[JACOBI_MAX];   /* weight sqrt(1 - tau s) R^(a/2); R */
+	for (int i = 0; i < nodes; ++i) {
+		Ref rest = dag_sub(dag, one, dag_mul(dag, tau, dag_const(dag, node[i])));
+		value[i] = dag_scale(dag, weight[i], dag_unary(dag, OP_SQRT, rest));
+		square[i] = dag_scale(dag, rat_sub(rat(1, 1), node[i]), rest);
+	}
+	for (int a = 0; a <= cap->degree; a += 2) {
+		Ref power = top, factor[JACOBI_MAX];
+		for (int i = 0; i < nodes; ++i)
+			factor[i] = value[i];
+		for (int b = 0; a + b <= cap->degree; ++b) {
+			Ref sum = NONE;
+			for (int i = 0; i < nodes; ++i) {
+				sum = dag_add(dag, sum, factor[i]);
+				factor[i] = dag_scale(dag, node[i], factor[i]);
+			}
+			Ref scaled = dag_scale(dag, rat(2, a + 1), power);
+			cap->cap[a][b] = dag_mul(dag, dag_mul(dag, scaled, cap->frame.area), sum);
+			power = dag_mul(dag, power, top);
+		}
+		for (int i = 0; i < nodes; ++i)
+			value[i] = dag_mul(dag, value[i], square[i]);
+	}
+}
+
+/* int x^m y^n X^a Y^b over the cap; NONE where it vanishes. */
+static Ref mixed(Cap *cap, int m, int n, int a, int b)
+{
+	Ref *place = &cap->mixed[m][n][a][b];
+	if (*place)
+		return *place;
+	if (m == 0 && n == 0)
+		return *place = a % 2 ? NONE : cap->cap[a][b];
+	const int axis = m == 0, less_m = m - !axis, less_n = n - axis;
+	const Ref part[3] = { mixed(cap, less_m, less_n, a, b),
+		mixed(cap, less_m, less_n, a + 1, b), mixed(cap, less_m, less_n, a, b + 1) };
+	const Ref by[3] = { cap->frame.middle[axis], cap->frame.u[axis], cap->frame.v[axis] };
+	Ref sum = NONE;
+	for (int i = 0; i < 3; ++i)
+		if (part[i] != NONE)
+			sum = dag_add(cap->dag, sum, dag_mul(cap->dag, by[i], part[i]));
+	return *place = sum;
+}
+
+static Dag *cap_moments(int degree, int is_float)
+{
+	Cap *cap = allocate(sizeof *cap);
+	Dag *dag = dag_new("gauss-jacobi");
+	dag->window = WINDOW_CONIC;
+	dag->proof = PROOF_NONE;
+	cap->dag = dag;
+	cap->degree = degree;
+	cap->frame = frame(dag);
+	add_cap_moments(cap, is_float);
+	finish_room(dag, degree);
+	for (int d = 0; d <= degree; ++d)
+		for (int n = 0; n <= d; ++n) {
+			finish_next(dag, d - n, n, rat(1, 1));
+			dag_accumulate(dag, mixed(cap, d - n, n, 0, 0));
+		}
+	return dag;
+}
+
+Dag *conic_cap(int degree, int is_float)
+{
+	return degree ? cap_moments(degree, is_float) : cap_area(is_float);
+}
