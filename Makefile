@@ -153,7 +153,7 @@ deps-bench:
 
 # ---- tests ----
 
-RING_TESTS := rings lanes central ring_contract long_rings kernels batches trust
+RING_TESTS := rings lanes central ring_contract long_rings kernels batches bounded compensated
 PROGRAMS   := $(addprefix $(B)/tests/,units lines polynomials shapes $(RING_TESTS))
 TEST_BUILD  = $(CC) -std=gnu11 -Wall -Wextra -ffp-contract=off $(SANITIZE) $(CFLAGS) -Itests
 

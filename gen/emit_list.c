@@ -193,8 +193,8 @@ static void add_targets(Text *text, const Request *request, const Kernels *kerne
 		const char *name = upper(target->name);
 		if (!(request->targets & target->bit))
 			continue;
-		text_add(text, "\n#%s %s\n#define EW_TARGET_%s(X) X(%s, %s, %d)\n#else\n"
-			"#define EW_TARGET_%s(X)\n#endif\n", "if",
+		text_add(text, "\n#if %s\n#define EW_TARGET_%s(X) X(%s, %s, %d)\n#else\n"
+			"#define EW_TARGET_%s(X)\n#endif\n",
 			target->guard ? target->guard : "1", name, name, target->name,
 			target->vector ? target->vector->width[0] : 1, name);
 		text_add(&all, " EW_TARGET_%s(X)", name);

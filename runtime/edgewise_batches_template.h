@@ -1,12 +1,13 @@
 /* edgewise_batches_template.h - many rings at a time, included by edgewise_rings.c once per
  * precision, behind the driver of single rings.
  *
- * Short rings stand side by side, one in each lane of a register: their vertices are transposed
- * into a tile that stays in the nearest cache, over which the same kernels run with reach and step
- * equal to the width. Since a short ring takes its items one by one anyway, the results are those
- * of the functions for single rings, bit for bit. Rings that do not fit in (long ones, and those
- * of fewer than three vertices) go to the driver of single rings. Results that exceed the caches
- * bypass them.
+ * Short rings stand side by side, one in each lane of a register. Up to degree EW_SIDES - 1 their
+ * vertices are transposed and summed up without leaving the registers (edgewise_sides_template.h).
+ * For higher degrees, and near the end of the arrays, they go into a tile that stays in the nearest
+ * cache, over which the kernels of single rings run with reach and step equal to the width. Since a
+ * short ring takes its items one by one anyway, the results are those of the functions for single
+ * rings, bit for bit. Rings that do not fit in (long ones, and those of fewer than three vertices)
+ * go to the driver of single rings.
  *
  * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 
@@ -14,7 +15,6 @@
 typedef struct {
 	size_t first, count, furthest;         /* furthest: the start that comes last */
 	ew_ring_lanes lanes;
-	int side;                              /* to be summed up in registers, without a tile */
 	int left_out;                          /* is a ring for the driver of single rings? */
 	int32_t start[EW_WIDTH];               /* if not as in the offsets */
 	EW_ALIGNED EW_REAL length[EW_WIDTH];              /* 0: no ring, or left out */
@@ -22,22 +22,18 @@ typedef struct {
 	EW_ALIGNED EW_REAL y[EW_TILE * EW_WIDTH];
 } EW_LOCAL(group);
 
-/* While one group is integrated the tile of the next is already filled, so that what was stored by
- * halves of a register has reached the cache before it is loaded. */
 typedef struct {
 	const EW_REAL *x, *y;
 	const int32_t *offsets;
 	size_t rings;
-	int far;                               /* larger than the caches */
-	int id, side, moved;                   /* moved: about the first vertex of each ring */
+	int id, moved;                         /* moved: about the first vertex of each ring */
 	EW_RUN *run;
-	ew_ring_divide *divide;
+	EW_LOCAL(side) *side;                  /* instead of `run`, or NULL */
 	ew_ring_finish *finish;                /* of `finished` rings side by side */
 	size_t finished;
 	int32_t most;                          /* a ring of that many vertices does not fit */
 	const EW_LOCAL(columns) *by;
-	EW_LOCAL(group) group[2];
-	int now;
+	EW_LOCAL(group) group;
 	EW_ALIGNED EW_REAL sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
 	EW_ALIGNED double result[EW_MAX_OUTPUTS * EW_WIDTH];       /* [output * EW_WIDTH + lane] */
 } EW_LOCAL(batch);
@@ -135,60 +131,40 @@ static void EW_LOCAL(gather_slowly)(const EW_REAL *from, const EW_LOCAL(group) *
 	}
 }
 
-/* Vertices that are needed soon, if there are that many. */
-static void EW_LOCAL(ask_for)(const EW_LOCAL(batch) *b, size_t start, size_t end)
+/* The sums of all accumulators. An odd number of items is made even by one that adds 0: kernels
+ * take pairs. */
+static void EW_LOCAL(sum_group)(EW_LOCAL(batch) *b, EW_LOCAL(group) *g)
 {
-	const size_t last = (size_t)b->offsets[b->rings];
-	end = end < last ? end : last;
-	for (size_t i = start; i < end; i += 64 / sizeof(EW_REAL)) {
-		EW_PREFETCH(b->x + i);
-		EW_PREFETCH(b->y + i);
+	const ew_ring_shape *shape = &ew_ring_shapes[b->id];
+	const size_t width = b->by->width, longest = g->lanes.longest;
+	const size_t items = (longest + 3 - (size_t)shape->window) / 2 * 2;
+	const int in_reach = g->furthest + longest + 3 <= (size_t)b->offsets[b->rings];
+	if (in_reach && b->side) {
+		b->side(b->x, b->y, &g->lanes, g->length, b->sum);
+		return;
 	}
-}
-
-static void EW_LOCAL(prepare)(const EW_LOCAL(batch) *b, size_t first, EW_LOCAL(group) *g)
-{
-	const size_t width = b->by->width;
-	EW_LOCAL(form_group)(b, first, g);
-	if (b->far)
-		EW_LOCAL(ask_for)(b, (size_t)b->offsets[first] + EW_AHEAD,
-			(size_t)b->offsets[g->first + g->count] + EW_AHEAD);
-	if (g->lanes.longest == 0)
-		return;
-	g->side = b->side && g->furthest + g->lanes.longest + 3 <= (size_t)b->offsets[b->rings];
-	if (g->side)
-		return;
-	if (g->furthest + g->lanes.longest + 3 <= (size_t)b->offsets[b->rings]) {
-		b->by->gather(b->x, b->y, &g->lanes, g->length, b->moved, g->x, g->y);
+	if (in_reach) {
+		b->by->gather(b->x, b->y, &g->lanes, g->length, g->x, g->y);
 	} else {
 		EW_LOCAL(gather_slowly)(b->x, g, width, b->moved, g->x);
 		EW_LOCAL(gather_slowly)(b->y, g, width, b->moved, g->y);
 	}
+	b->by->clear(b->sum, (size_t)shape->accumulators * EW_WIDTH);
+	b->run(g->x, g->y, g->x, width, width, items * width, b->sum);
 }
 
-/* An odd number of items is made even by one that adds 0: kernels take pairs. */
-static void EW_LOCAL(run_group)(EW_LOCAL(batch) *b, const EW_LOCAL(group) *g)
+static void EW_LOCAL(run_group)(EW_LOCAL(batch) *b, EW_LOCAL(group) *g)
 {
-	const ew_ring_shape *shape = &ew_ring_shapes[b->id];
-	const size_t width = b->by->width, cells = (size_t)shape->accumulators * EW_WIDTH;
-	const size_t items = (g->lanes.longest + 3 - (size_t)shape->window) / 2 * 2;
 #if EW_IS_FLOAT
 	EW_ALIGNED double wide[EW_MAX_ACCUMULATORS * EW_WIDTH];
+	EW_LOCAL(sum_group)(b, g);
+	for (int i = 0; i < ew_ring_shapes[b->id].accumulators * EW_WIDTH; ++i)
+		wide[i] = (double)b->sum[i];
 #else
 	const double *wide = b->sum;
+	EW_LOCAL(sum_group)(b, g);
 #endif
-	if (g->side)
-		b->by->side[b->id - EW_RING_MOMENTS_0](b->x, b->y, &g->lanes, g->length, b->moved,
-			b->sum);
-	else {
-		b->by->clear(b->sum, cells);
-		b->run(g->x, g->y, g->x, width, width, items * width, b->sum);
-	}
-#if EW_IS_FLOAT
-	for (size_t i = 0; i < cells; ++i)
-		wide[i] = (double)b->sum[i];
-#endif
-	for (size_t l = 0; l < width; l += b->finished)
+	for (size_t l = 0; l < b->by->width; l += b->finished)
 		b->finish(wide + l, b->result + l, EW_WIDTH);
 }
 
@@ -225,11 +201,11 @@ static int EW_LOCAL(is_finite)(const EW_LOCAL(batch) *b)
 /* The next group, with its results in b->result; NULL when no ring is left. */
 static const EW_LOCAL(group) *EW_LOCAL(next_group)(EW_LOCAL(batch) *b)
 {
-	const EW_LOCAL(group) *g = &b->group[b->now];
-	if (g->count == 0)
+	EW_LOCAL(group) *g = &b->group;
+	const size_t first = g->first + g->count;
+	if (first == b->rings)
 		return NULL;
-	b->now = !b->now;
-	EW_LOCAL(prepare)(b, g->first + g->count, &b->group[b->now]);
+	EW_LOCAL(form_group)(b, first, g);
 	if (g->lanes.longest)
 		EW_LOCAL(run_group)(b, g);
 	if (g->left_out || !EW_LOCAL(is_finite)(b))
@@ -259,50 +235,11 @@ static void EW_LOCAL(begin)(EW_LOCAL(batch) *b, int degree, int moved, const EW_
 	b->moved = moved;
 	b->run = EW_LOCAL(kernel)(b->id, target);
 	b->finish = ew_ring_finish_columns(target, degree, &b->finished);
-	b->divide = ew_ring_divide_by_target(target);
 	b->by = EW_LOCAL(by_columns)(target);
-	b->far = rings && (size_t)offsets[rings] > EW_CACHED / sizeof *x;
-	b->side = degree < EW_SIDES && b->by->side[degree];
+	b->side = moved ? b->by->centroid : degree < EW_SIDES ? b->by->side[degree] : NULL;
 	b->most = b->by->gather ? EW_SHORT : 3;
-	b->now = 0;
+	b->group.first = b->group.count = 0;
 	memset(b->result, 0, sizeof b->result);
-	EW_LOCAL(prepare)(b, 0, &b->group[0]);
-}
-
-/* Past the caches if the results of all rings would not stay in them anyway. */
-EW_INLINE void EW_LOCAL(put)(EW_REAL *to, double value, int past)
-{
-#if EW_X86
-	if (past) {
-		EW_REAL narrow = (EW_REAL)value;
-#if EW_IS_FLOAT
-		int bits;
-		memcpy(&bits, &narrow, sizeof bits);
-		_mm_stream_si32((int *)to, bits);
-#else
-		long long bits;
-		memcpy(&bits, &narrow, sizeof bits);
-		_mm_stream_si64((long long *)to, bits);
-#endif
-		return;
-	}
-#else
-	(void)past;
-#endif
-	*to = (EW_REAL)value;
-}
-
-static int EW_LOCAL(is_large)(size_t results)
-{
-	return results > EW_CACHED / sizeof(EW_REAL);
-}
-
-EW_INLINE void EW_LOCAL(put_moments)(const double *result, size_t rings, size_t outputs, int past,
-	EW_REAL *to)
-{
-	for (size_t l = 0; l < rings; ++l)
-		for (size_t j = 0; j < outputs; ++j)
-			EW_LOCAL(put)(to++, result[j * EW_WIDTH + l], past);
 }
 
 int EW_NAME(moments_rings)(int degree, const EW_REAL *x, const EW_REAL *y, const int32_t *offsets,
@@ -313,16 +250,13 @@ int EW_NAME(moments_rings)(int degree, const EW_REAL *x, const EW_REAL *y, const
 	if (EW_LOCAL(bad_offsets)(offsets, rings))
 		return EW_BAD_OFFSETS;
 	const size_t outputs = EW_MOMENTS((size_t)degree);
-	const int past = EW_LOCAL(is_large)(rings * outputs);
 	const EW_LOCAL(group) *g;
 	EW_LOCAL(batch) b;
 	EW_LOCAL(begin)(&b, degree, 0, x, y, offsets, rings);
-	for (EW_REAL *to = out; (g = EW_LOCAL(next_group)(&b)) != NULL; to += g->count * outputs)
-		if (past)
-			EW_LOCAL(put_moments)(b.result, g->count, outputs, 1, to);
-		else
-			EW_LOCAL(put_moments)(b.result, g->count, outputs, 0, to);
-	ew_ring_fence(past);
+	while ((g = EW_LOCAL(next_group)(&b)) != NULL)
+		for (size_t l = 0; l < g->count; ++l)
+			for (size_t j = 0; j < outputs; ++j)
+				*out++ = (EW_REAL)b.result[j * EW_WIDTH + l];
 	return EW_OK;
 }
 
@@ -339,32 +273,32 @@ static int EW_LOCAL(quotients)(const EW_LOCAL(batch) *b, const EW_LOCAL(group) *
 {
 	const double *area = b->result, *x = area + EW_WIDTH, *y = x + EW_WIDTH;
 	int careful = 0;
-	b->divide(x, area, EW_WIDTH, c);
-	b->divide(y, area, EW_WIDTH, c + EW_WIDTH);
+	b->by->divide(x, area, EW_WIDTH, c);
+	b->by->divide(y, area, EW_WIDTH, c + EW_WIDTH);
 	for (size_t l = 0; l < g->count; ++l)
 		careful |= !EW_LOCAL(is_safe)(area[l], x[l], y[l]);
 	return !careful;
 }
 
-EW_INLINE void EW_LOCAL(put_centroids)(const EW_LOCAL(batch) *b, const EW_LOCAL(group) *g, int past,
+static void EW_LOCAL(put_centroids)(const EW_LOCAL(batch) *b, const EW_LOCAL(group) *g,
 	EW_REAL *cx, EW_REAL *cy)
 {
 	EW_ALIGNED double c[2 * EW_WIDTH];
 	const int32_t *start = b->offsets + g->first;
-	if (!EW_LOCAL(quotients)(b, g, c)) {
-		for (size_t l = 0; l < g->count; ++l) {
-			EW_REAL one[2];
-			EW_NAME(centroid)(b->x + start[l], b->y + start[l],
-				EW_LOCAL(ring_size)(b, g->first + l), one);
-			EW_LOCAL(put)(cx + l, (double)one[0], past);
-			EW_LOCAL(put)(cy + l, (double)one[1], past);
-		}
+	if (EW_LOCAL(quotients)(b, g, c)) {
+		for (size_t l = 0; l < g->count; ++l)
+			cx[l] = (EW_REAL)((double)b->x[start[l]] + c[l]);
+		for (size_t l = 0; l < g->count; ++l)
+			cy[l] = (EW_REAL)((double)b->y[start[l]] + c[EW_WIDTH + l]);
 		return;
 	}
-	for (size_t l = 0; l < g->count; ++l)
-		EW_LOCAL(put)(cx + l, (double)b->x[start[l]] + c[l], past);
-	for (size_t l = 0; l < g->count; ++l)
-		EW_LOCAL(put)(cy + l, (double)b->y[start[l]] + c[EW_WIDTH + l], past);
+	for (size_t l = 0; l < g->count; ++l) {
+		EW_REAL one[2];
+		EW_NAME(centroid)(b->x + start[l], b->y + start[l],
+			EW_LOCAL(ring_size)(b, g->first + l), one);
+		cx[l] = one[0];
+		cy[l] = one[1];
+	}
 }
 
 int EW_NAME(centroid_rings)(const EW_REAL *x, const EW_REAL *y, const int32_t *offsets,
@@ -372,16 +306,11 @@ int EW_NAME(centroid_rings)(const EW_REAL *x, const EW_REAL *y, const int32_t *o
 {
 	if (EW_LOCAL(bad_offsets)(offsets, rings))
 		return EW_BAD_OFFSETS;
-	const int past = EW_LOCAL(is_large)(2 * rings);
 	const EW_LOCAL(group) *g;
 	EW_LOCAL(batch) b;
 	EW_LOCAL(begin)(&b, 1, 1, x, y, offsets, rings);
 	while ((g = EW_LOCAL(next_group)(&b)) != NULL)
-		if (past)
-			EW_LOCAL(put_centroids)(&b, g, 1, cx + g->first, cy + g->first);
-		else
-			EW_LOCAL(put_centroids)(&b, g, 0, cx + g->first, cy + g->first);
-	ew_ring_fence(past);
+		EW_LOCAL(put_centroids)(&b, g, cx + g->first, cy + g->first);
 	return EW_OK;
 }
 #endif

@@ -2,7 +2,7 @@
  * pairs, and transposed so that short rings stand side by side in the lanes of a register.
  *
  * A block of ROWS rings by COLUMNS vertices is loaded row by row and transposed in registers; that
- * is several times faster than gathering. edgewise_columns_template.h makes the two functions of a
+ * is several times faster than gathering. edgewise_columns_template.h makes the functions of a
  * precision from what an instruction set brings: BLOCK, LOAD, STORE, SPLAT, SUB, SELECT (the lanes
  * whose length is more than c), EVEN (every second of two vectors of pairs).
  *
@@ -11,51 +11,38 @@
 
 #include <string.h>
 
-#ifdef EW_HAS_DOUBLE
-static void ew_ring_move_scalar(const double *from, size_t stride, double origin, size_t count,
-	double *to)
-{
-	for (size_t i = 0; i < count; ++i)
-		to[i] = from[i * stride] - origin;
-}
-
-static void ew_ring_clear_scalar(double *to, size_t count)
-{
-	memset(to, 0, count * sizeof *to);
-}
-
-static const ew_ring_columns ew_ring_columns_scalar = {
-	1, ew_ring_move_scalar, ew_ring_clear_scalar, NULL, { NULL }
-};
-#endif
-
-#ifdef EW_HAS_FLOAT
-static void ew_ring_move_scalarf(const float *from, size_t stride, float origin, size_t count,
-	float *to)
-{
-	for (size_t i = 0; i < count; ++i)
-		to[i] = from[i * stride] - origin;
-}
-
-static void ew_ring_clear_scalarf(float *to, size_t count)
-{
-	memset(to, 0, count * sizeof *to);
-}
-
-static const ew_ring_columnsf ew_ring_columns_scalarf = {
-	1, ew_ring_move_scalarf, ew_ring_clear_scalarf, NULL, { NULL }
-};
-#endif
-
-#if EW_BUILD_AVX2 || EW_BUILD_AVX512
-#include <immintrin.h>
-#endif
-
 static void ew_ring_divide_scalar(const double *a, const double *b, size_t count, double *to)
 {
 	for (size_t i = 0; i < count; ++i)
 		to[i] = a[i] / b[i];
 }
+
+#define EW_SCALAR(f, real) \
+static void ew_ring_move_scalar##f(const real *from, size_t stride, real origin, size_t count, \
+	real *to) \
+{ \
+	for (size_t i = 0; i < count; ++i) \
+		to[i] = from[i * stride] - origin; \
+} \
+static void ew_ring_clear_scalar##f(real *to, size_t count) \
+{ \
+	memset(to, 0, count * sizeof *to); \
+} \
+static const ew_ring_columns##f ew_ring_columns_scalar##f = { \
+	1, ew_ring_move_scalar##f, ew_ring_clear_scalar##f, ew_ring_divide_scalar, NULL, \
+	{ NULL }, NULL \
+};
+#ifdef EW_HAS_DOUBLE
+EW_SCALAR(, double)
+#endif
+#ifdef EW_HAS_FLOAT
+EW_SCALAR(f, float)
+#endif
+#undef EW_SCALAR
+
+#if EW_BUILD_AVX2 || EW_BUILD_AVX512
+#include <immintrin.h>
+#endif
 
 #if EW_BUILD_AVX2
 #include "edgewise_items_avx2.h"
@@ -68,7 +55,7 @@ EW_ATTRIBUTE_AVX2 static void ew_ring_divide_avx2(const double *a, const double 
 			_mm256_loadu_pd(b + i)));
 }
 
-
+#ifdef EW_HAS_DOUBLE
 EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2(const double *from, const size_t *start,
 	__m256d column[2])
 {
@@ -80,6 +67,28 @@ EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2(const double *from, const si
 	column[1] = _mm256_unpackhi_pd(even, odd);
 }
 
+#define EW_ISA(stem) ew_ring_##stem##_avx2
+#define EW_ITEM(degree) ew_ring_moments_##degree##_item_avx2
+#define EW_DIVIDE ew_ring_divide_avx2
+#define EW_VECTOR __m256d
+#define EW_ATTRIBUTE EW_ATTRIBUTE_AVX2
+#define EW_ROWS 4
+#define EW_STARTS(s) { (size_t)s[0], (size_t)s[1], (size_t)s[2], (size_t)s[3] }
+#define EW_COLUMNS 2
+#define EW_EACH(X) X(0) X(1)
+#define EW_LOAD(p) _mm256_loadu_pd(p)
+#define EW_STORE(p, v) _mm256_storeu_pd(p, v)
+#define EW_SPLAT(a) _mm256_set1_pd(a)
+#define EW_SUB(a, b) _mm256_sub_pd(a, b)
+#define EW_SELECT(length, c, v, first) \
+	_mm256_blendv_pd(first, v, _mm256_cmp_pd(length, c, _CMP_GT_OQ))
+#define EW_EVEN(a, b) _mm256_permute4x64_pd(_mm256_unpacklo_pd(a, b), 0xd8)
+#define EW_IS_FLOAT 0
+#include "edgewise_columns_template.h"
+#undef EW_IS_FLOAT
+#endif
+
+#ifdef EW_HAS_FLOAT
 EW_ATTRIBUTE_AVX2 EW_INLINE __m256 ew_ring_rows_avx2f(const float *low, const float *high)
 {
 	return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high),
@@ -101,30 +110,9 @@ EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2f(const float *from, const si
 	column[3] = _mm256_shuffle_ps(high01, high23, 0xee);
 }
 
-#ifdef EW_HAS_DOUBLE
-#define EW_ISA(stem) ew_ring_##stem##_avx2
-#define EW_ITEM(degree) ew_ring_moments_##degree##_item_avx2
-#define EW_VECTOR __m256d
-#define EW_ATTRIBUTE EW_ATTRIBUTE_AVX2
-#define EW_ROWS 4
-#define EW_STARTS(s) { (size_t)s[0], (size_t)s[1], (size_t)s[2], (size_t)s[3] }
-#define EW_COLUMNS 2
-#define EW_EACH(X) X(0) X(1)
-#define EW_LOAD(p) _mm256_loadu_pd(p)
-#define EW_STORE(p, v) _mm256_storeu_pd(p, v)
-#define EW_SPLAT(a) _mm256_set1_pd(a)
-#define EW_SUB(a, b) _mm256_sub_pd(a, b)
-#define EW_SELECT(length, c, v, first) \
-	_mm256_blendv_pd(first, v, _mm256_cmp_pd(length, c, _CMP_GT_OQ))
-#define EW_EVEN(a, b) _mm256_permute4x64_pd(_mm256_unpacklo_pd(a, b), 0xd8)
-#define EW_IS_FLOAT 0
-#include "edgewise_columns_template.h"
-#undef EW_IS_FLOAT
-#endif
-
-#ifdef EW_HAS_FLOAT
 #define EW_ISA(stem) ew_ring_##stem##_avx2f
 #define EW_ITEM(degree) ew_ring_moments_##degree##_item_avx2f
+#define EW_DIVIDE ew_ring_divide_avx2
 #define EW_VECTOR __m256
 #define EW_ATTRIBUTE EW_ATTRIBUTE_AVX2
 #define EW_ROWS 8
@@ -144,7 +132,6 @@ EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2f(const float *from, const si
 #include "edgewise_columns_template.h"
 #undef EW_IS_FLOAT
 #endif
-
 #endif
 
 #if EW_BUILD_AVX512
@@ -171,6 +158,7 @@ EW_ATTRIBUTE_AVX512 EW_INLINE __m512 ew_ring_quarters_avx512(const float *a, con
 	return _mm512_mask_broadcast_f32x4(v, 0xf000, _mm_loadu_ps(d));
 }
 
+#ifdef EW_HAS_DOUBLE
 EW_ATTRIBUTE_AVX512 EW_INLINE __m512d ew_ring_pairs_avx512(const double *from,
 	const size_t *start)
 {
@@ -188,6 +176,30 @@ EW_ATTRIBUTE_AVX512 EW_INLINE void ew_ring_block_avx512(const double *from, cons
 	column[1] = _mm512_maskz_unpackhi_pd(0xff, even, odd);
 }
 
+#define EW_ISA(stem) ew_ring_##stem##_avx512
+#define EW_ITEM(degree) ew_ring_moments_##degree##_item_avx512
+#define EW_DIVIDE ew_ring_divide_avx512
+#define EW_VECTOR __m512d
+#define EW_ATTRIBUTE EW_ATTRIBUTE_AVX512
+#define EW_ROWS 8
+#define EW_STARTS(s) { (size_t)s[0], (size_t)s[1], (size_t)s[2], (size_t)s[3], \
+	(size_t)s[4], (size_t)s[5], (size_t)s[6], (size_t)s[7] }
+#define EW_COLUMNS 2
+#define EW_EACH(X) X(0) X(1)
+#define EW_LOAD(p) _mm512_loadu_pd(p)
+#define EW_STORE(p, v) _mm512_storeu_pd(p, v)
+#define EW_SPLAT(a) _mm512_set1_pd(a)
+#define EW_SUB(a, b) _mm512_sub_pd(a, b)
+#define EW_SELECT(length, c, v, first) \
+	_mm512_mask_blend_pd(_mm512_cmp_pd_mask(length, c, _CMP_GT_OQ), first, v)
+#define EW_EVEN(a, b) _mm512_permutex2var_pd(a, \
+	_mm512_set_epi64(14, 12, 10, 8, 6, 4, 2, 0), b)
+#define EW_IS_FLOAT 0
+#include "edgewise_columns_template.h"
+#undef EW_IS_FLOAT
+#endif
+
+#ifdef EW_HAS_FLOAT
 EW_ATTRIBUTE_AVX512 EW_INLINE __m512 ew_ring_rows_avx512f(const float *from, const size_t *start)
 {
 	return ew_ring_quarters_avx512(from + start[0], from + start[4], from + start[8],
@@ -211,32 +223,9 @@ EW_ATTRIBUTE_AVX512 EW_INLINE void ew_ring_block_avx512f(const float *from, cons
 	column[3] = _mm512_shuffle_ps(high01, high23, 0xee);
 }
 
-#ifdef EW_HAS_DOUBLE
-#define EW_ISA(stem) ew_ring_##stem##_avx512
-#define EW_ITEM(degree) ew_ring_moments_##degree##_item_avx512
-#define EW_VECTOR __m512d
-#define EW_ATTRIBUTE EW_ATTRIBUTE_AVX512
-#define EW_ROWS 8
-#define EW_STARTS(s) { (size_t)s[0], (size_t)s[1], (size_t)s[2], (size_t)s[3], \
-	(size_t)s[4], (size_t)s[5], (size_t)s[6], (size_t)s[7] }
-#define EW_COLUMNS 2
-#define EW_EACH(X) X(0) X(1)
-#define EW_LOAD(p) _mm512_loadu_pd(p)
-#define EW_STORE(p, v) _mm512_storeu_pd(p, v)
-#define EW_SPLAT(a) _mm512_set1_pd(a)
-#define EW_SUB(a, b) _mm512_sub_pd(a, b)
-#define EW_SELECT(length, c, v, first) \
-	_mm512_mask_blend_pd(_mm512_cmp_pd_mask(length, c, _CMP_GT_OQ), first, v)
-#define EW_EVEN(a, b) _mm512_permutex2var_pd(a, \
-	_mm512_set_epi64(14, 12, 10, 8, 6, 4, 2, 0), b)
-#define EW_IS_FLOAT 0
-#include "edgewise_columns_template.h"
-#undef EW_IS_FLOAT
-#endif
-
-#ifdef EW_HAS_FLOAT
 #define EW_ISA(stem) ew_ring_##stem##_avx512f
 #define EW_ITEM(degree) ew_ring_moments_##degree##_item_avx512f
+#define EW_DIVIDE ew_ring_divide_avx512
 #define EW_VECTOR __m512
 #define EW_ATTRIBUTE EW_ATTRIBUTE_AVX512
 #define EW_ROWS 16
@@ -270,6 +259,7 @@ static void ew_ring_divide_neon(const double *a, const double *b, size_t count, 
 		vst1q_f64(to + i, vdivq_f64(vld1q_f64(a + i), vld1q_f64(b + i)));
 }
 
+#ifdef EW_HAS_DOUBLE
 EW_INLINE void ew_ring_block_neon(const double *from, const size_t *start, float64x2_t column[2])
 {
 	const float64x2_t r0 = vld1q_f64(from + start[0]), r1 = vld1q_f64(from + start[1]);
@@ -277,23 +267,9 @@ EW_INLINE void ew_ring_block_neon(const double *from, const size_t *start, float
 	column[1] = vzip2q_f64(r0, r1);
 }
 
-EW_INLINE void ew_ring_block_neonf(const float *from, const size_t *start, float32x4_t column[4])
-{
-	const float32x4_t r0 = vld1q_f32(from + start[0]), r1 = vld1q_f32(from + start[1]);
-	const float32x4_t r2 = vld1q_f32(from + start[2]), r3 = vld1q_f32(from + start[3]);
-	const float64x2_t even01 = vreinterpretq_f64_f32(vtrn1q_f32(r0, r1));
-	const float64x2_t even23 = vreinterpretq_f64_f32(vtrn1q_f32(r2, r3));
-	const float64x2_t odd01 = vreinterpretq_f64_f32(vtrn2q_f32(r0, r1));
-	const float64x2_t odd23 = vreinterpretq_f64_f32(vtrn2q_f32(r2, r3));
-	column[0] = vreinterpretq_f32_f64(vzip1q_f64(even01, even23));
-	column[1] = vreinterpretq_f32_f64(vzip1q_f64(odd01, odd23));
-	column[2] = vreinterpretq_f32_f64(vzip2q_f64(even01, even23));
-	column[3] = vreinterpretq_f32_f64(vzip2q_f64(odd01, odd23));
-}
-
-#ifdef EW_HAS_DOUBLE
 #define EW_ISA(stem) ew_ring_##stem##_neon
 #define EW_ITEM(degree) ew_ring_moments_##degree##_item_neon
+#define EW_DIVIDE ew_ring_divide_neon
 #define EW_VECTOR float64x2_t
 #define EW_ATTRIBUTE EW_ATTRIBUTE_NEON
 #define EW_ROWS 2
@@ -312,8 +288,23 @@ EW_INLINE void ew_ring_block_neonf(const float *from, const size_t *start, float
 #endif
 
 #ifdef EW_HAS_FLOAT
+EW_INLINE void ew_ring_block_neonf(const float *from, const size_t *start, float32x4_t column[4])
+{
+	const float32x4_t r0 = vld1q_f32(from + start[0]), r1 = vld1q_f32(from + start[1]);
+	const float32x4_t r2 = vld1q_f32(from + start[2]), r3 = vld1q_f32(from + start[3]);
+	const float64x2_t even01 = vreinterpretq_f64_f32(vtrn1q_f32(r0, r1));
+	const float64x2_t even23 = vreinterpretq_f64_f32(vtrn1q_f32(r2, r3));
+	const float64x2_t odd01 = vreinterpretq_f64_f32(vtrn2q_f32(r0, r1));
+	const float64x2_t odd23 = vreinterpretq_f64_f32(vtrn2q_f32(r2, r3));
+	column[0] = vreinterpretq_f32_f64(vzip1q_f64(even01, even23));
+	column[1] = vreinterpretq_f32_f64(vzip1q_f64(odd01, odd23));
+	column[2] = vreinterpretq_f32_f64(vzip2q_f64(even01, even23));
+	column[3] = vreinterpretq_f32_f64(vzip2q_f64(odd01, odd23));
+}
+
 #define EW_ISA(stem) ew_ring_##stem##_neonf
 #define EW_ITEM(degree) ew_ring_moments_##degree##_item_neonf
+#define EW_DIVIDE ew_ring_divide_neon
 #define EW_VECTOR float32x4_t
 #define EW_ATTRIBUTE EW_ATTRIBUTE_NEON
 #define EW_ROWS 4
@@ -336,18 +327,6 @@ EW_INLINE void ew_ring_block_neonf(const float *from, const size_t *start, float
 #define ew_ring_columns_fma ew_ring_columns_scalar
 #define ew_ring_columns_portablef ew_ring_columns_scalarf
 #define ew_ring_columns_fmaf ew_ring_columns_scalarf
-#define ew_ring_divide_portable ew_ring_divide_scalar
-#define ew_ring_divide_fma ew_ring_divide_scalar
-
-ew_ring_divide *ew_ring_divide_by_target(unsigned used)
-{
-#define EW_CASE(TARGET, target, doubles) case EW_##TARGET: return ew_ring_divide_##target;
-	switch (used) {
-	EW_TARGETS(EW_CASE)
-	default: return NULL;          /* no such target is ever in use */
-	}
-#undef EW_CASE
-}
 
 #ifdef EW_HAS_DOUBLE
 const ew_ring_columns *ew_ring_by_columns(unsigned used)
@@ -355,7 +334,7 @@ const ew_ring_columns *ew_ring_by_columns(unsigned used)
 #define EW_CASE(TARGET, target, doubles) case EW_##TARGET: return &ew_ring_columns_##target;
 	switch (used) {
 	EW_TARGETS(EW_CASE)
-	default: return NULL;
+	default: return NULL;          /* no such target is ever in use */
 	}
 #undef EW_CASE
 }

@@ -29,10 +29,10 @@ EW_ATTRIBUTE static void EW_ISA(clear)(EW_REAL *to, size_t count)
 #define EW_SELECT_COLUMN(k) \
 	column[k] = EW_SELECT(EW_LOAD(lengths), EW_SPLAT((EW_REAL)(c + k)), column[k], first);
 #define EW_STORE_COLUMN(k) \
-	EW_STORE(tile + (c + k) * EW_ROWS, moved ? EW_SUB(column[k], first) : column[k]);
+	EW_STORE(tile + (c + k) * EW_ROWS, column[k]);
 /* One coordinate; `ragged` if the lengths differ. */
 EW_ATTRIBUTE EW_INLINE void EW_ISA(fill)(const EW_REAL *from, const size_t *start, size_t longest,
-	const EW_REAL *lengths, int ragged, int moved, EW_REAL *tile)
+	const EW_REAL *lengths, int ragged, EW_REAL *tile)
 {
 	EW_VECTOR column[EW_COLUMNS], first;
 	EW_ISA(block)(from, start, column);
@@ -46,7 +46,6 @@ EW_ATTRIBUTE EW_INLINE void EW_ISA(fill)(const EW_REAL *from, const size_t *star
 		if (c >= longest)
 			break;
 	}
-	first = moved ? EW_SUB(first, first) : first;
 	EW_STORE(tile + longest * EW_ROWS, first);
 	EW_STORE(tile + (longest + 1) * EW_ROWS, first);
 }
@@ -54,62 +53,63 @@ EW_ATTRIBUTE EW_INLINE void EW_ISA(fill)(const EW_REAL *from, const size_t *star
 #undef EW_STORE_COLUMN
 
 EW_ATTRIBUTE static void EW_ISA(gather)(const EW_REAL *x, const EW_REAL *y,
-	const ew_ring_lanes *lanes, const EW_REAL *lengths, int moved, EW_REAL *tile_x,
-	EW_REAL *tile_y)
+	const ew_ring_lanes *lanes, const EW_REAL *lengths, EW_REAL *tile_x, EW_REAL *tile_y)
 {
 	const size_t longest = lanes->longest;
 	const int32_t *s = lanes->start;
 	const size_t start[EW_ROWS] = EW_STARTS(s);
-#define EW_FILL(ragged, moved) \
-	EW_ISA(fill)(x, start, longest, lengths, ragged, moved, tile_x); \
-	EW_ISA(fill)(y, start, longest, lengths, ragged, moved, tile_y)
 	if (lanes->shortest < longest) {
-		EW_FILL(1, moved);
-	} else if (moved) {
-		EW_FILL(0, 1);
+		EW_ISA(fill)(x, start, longest, lengths, 1, tile_x);
+		EW_ISA(fill)(y, start, longest, lengths, 1, tile_y);
 	} else {
-		EW_FILL(0, 0);
+		EW_ISA(fill)(x, start, longest, lengths, 0, tile_x);
+		EW_ISA(fill)(y, start, longest, lengths, 0, tile_y);
 	}
-#undef EW_FILL
 }
 
 #ifdef EW_MAX_DEGREE
-#define EW_SIDE(stem) EW_ISA(stem##_0)
+#define EW_SIDE EW_ISA(side_0)
 #define EW_SUMS EW_SUMS_0
 #define EW_NEXT(k) EW_NEXT_0(EW_ITEM(0), k)
+#define EW_MOVED 0
 #include "edgewise_sides_template.h"
 #endif
 #if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 1
-#define EW_SIDE(stem) EW_ISA(stem##_1)
+#define EW_SIDE EW_ISA(side_1)
 #define EW_SUMS EW_SUMS_1
 #define EW_NEXT(k) EW_NEXT_1(EW_ITEM(1), k)
+#define EW_MOVED 0
+#include "edgewise_sides_template.h"
+#define EW_SIDE EW_ISA(centroid)
+#define EW_SUMS EW_SUMS_1
+#define EW_NEXT(k) EW_NEXT_1(EW_ITEM(1), k)
+#define EW_MOVED 1
 #include "edgewise_sides_template.h"
 #endif
 #if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 2
-#define EW_SIDE(stem) EW_ISA(stem##_2)
+#define EW_SIDE EW_ISA(side_2)
 #define EW_SUMS EW_SUMS_2
 #define EW_NEXT(k) EW_NEXT_2(EW_ITEM(2), k)
+#define EW_MOVED 0
 #include "edgewise_sides_template.h"
 #endif
 
 static const EW_LOCAL(columns) EW_ISA(columns) = {
-	EW_ROWS, EW_ISA(move), EW_ISA(clear), EW_ISA(gather), {
-#ifdef EW_MAX_DEGREE
-		EW_ISA(side_0),
+	EW_ROWS, EW_ISA(move), EW_ISA(clear), EW_DIVIDE, EW_ISA(gather),
+#ifndef EW_MAX_DEGREE
+	{ NULL }, NULL
+#elif EW_MAX_DEGREE == 0
+	{ EW_ISA(side_0) }, NULL
+#elif EW_MAX_DEGREE == 1
+	{ EW_ISA(side_0), EW_ISA(side_1) }, EW_ISA(centroid)
 #else
-		NULL
+	{ EW_ISA(side_0), EW_ISA(side_1), EW_ISA(side_2) }, EW_ISA(centroid)
 #endif
-#if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 1
-		EW_ISA(side_1),
-#endif
-#if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 2
-		EW_ISA(side_2)
-#endif
-	}
 };
 
 #undef EW_ISA
 #undef EW_ITEM
+#undef EW_DIVIDE
 #undef EW_VECTOR
 #undef EW_ATTRIBUTE
 #undef EW_ROWS

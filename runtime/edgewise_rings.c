@@ -6,9 +6,6 @@
 
 #include <math.h>
 #include <string.h>
-#if EW_X86
-#include <emmintrin.h>
-#endif
 
 typedef struct { int window, turns, accumulators, outputs; ew_ring_finish *finish; } ew_ring_shape;
 
@@ -71,17 +68,6 @@ static ew_ring_finish *ew_ring_finish_columns(unsigned used, int degree, size_t 
 #undef EW_ROW
 #undef EW_TABLE
 #undef EW_CASE
-}
-
-/* What went past the caches must be seen before what is written from now on. */
-static void ew_ring_fence(int past)
-{
-#if EW_X86
-	if (past)
-		_mm_sfence();
-#else
-	(void)past;
-#endif
 }
 #endif
 

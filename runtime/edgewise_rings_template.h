@@ -15,6 +15,8 @@
 typedef struct {
 	const EW_REAL *x, *y;
 	size_t stride, n;
+	unsigned target;               /* looked up once per call */
+	const EW_LOCAL(columns) *by;
 	int moved;                     /* vertex = (((x, y) - (cx, cy)) - (dx, dy)) scale */
 	EW_REAL cx, cy, dx, dy, scale;
 } EW_LOCAL(vertices);
@@ -51,11 +53,10 @@ static EW_REAL EW_LOCAL(vertex_y)(const EW_LOCAL(vertices) *v, size_t i)
 static void EW_LOCAL(stage)(const EW_LOCAL(vertices) *v, size_t start, size_t count,
 	EW_REAL *x, EW_REAL *y)
 {
-	const EW_LOCAL(columns) *by = EW_LOCAL(by_columns)(ew_cpu_target());
 	size_t whole = start < v->n ? v->n - start : 0;
 	whole = whole < count ? whole : count;
-	by->move(v->x + start * v->stride, v->stride, v->cx, whole, x);
-	by->move(v->y + start * v->stride, v->stride, v->cy, whole, y);
+	v->by->move(v->x + start * v->stride, v->stride, v->cx, whole, x);
+	v->by->move(v->y + start * v->stride, v->stride, v->cy, whole, y);
 	if (v->dx != 0 || v->dy != 0 || v->scale != 1)
 		for (size_t k = 0; k < whole; ++k) {
 			x[k] = (x[k] - v->dx) * v->scale;
@@ -86,11 +87,10 @@ static void EW_LOCAL(run_short)(int id, const EW_LOCAL(vertices) *v, const EW_RE
 	double *wide)
 {
 	const ew_ring_shape *shape = &ew_ring_shapes[id];
-	EW_RUN *run = EW_LOCAL(kernel)(id, ew_ring_scalar(ew_cpu_target()));
+	EW_RUN *run = EW_LOCAL(kernel)(id, ew_ring_scalar(v->target));
 	EW_REAL x[EW_SHORT + 2], y[EW_SHORT + 2];
 	EW_ALIGNED EW_REAL sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
-	EW_LOCAL(by_columns)(ew_cpu_target())->clear(sum,
-		(size_t)shape->accumulators * EW_WIDTH);
+	v->by->clear(sum, (size_t)shape->accumulators * EW_WIDTH);
 	EW_LOCAL(stage)(v, 0, v->n + 1, x, y);
 	run(x, y, origin, 1, 1, v->n + 2 - (size_t)shape->window, sum);
 	for (int k = 0; k < shape->accumulators; ++k)
@@ -102,19 +102,18 @@ static void EW_LOCAL(run_lanes)(int id, const EW_LOCAL(vertices) *v, const EW_RE
 	double *wide)
 {
 	const ew_ring_shape *shape = &ew_ring_shapes[id];
-	EW_RUN *run = EW_LOCAL(kernel)(id, ew_cpu_target());
+	EW_RUN *run = EW_LOCAL(kernel)(id, v->target);
 	const size_t cells = (size_t)shape->accumulators * EW_WIDTH;
 	const size_t reach = (size_t)shape->window - 1, items = v->n + 1 - reach;
 	const size_t step = (size_t)shape->turns * EW_WIDTH;
 	const size_t direct = v->moved || v->stride != 1 ? 0 : (v->n - reach) / step * step;
-	const EW_LOCAL(columns) *by = EW_LOCAL(by_columns)(ew_cpu_target());
 #if EW_IS_FLOAT
 	EW_ALIGNED EW_REAL sum[EW_MAX_ACCUMULATORS * EW_WIDTH];
 	memset(wide, 0, cells * sizeof *wide);
 #else
 	double *const sum = wide;
 #endif
-	by->clear(sum, cells);
+	v->by->clear(sum, cells);
 	for (size_t start = 0; start < items; start += EW_BLOCK) {
 		size_t end = items - start < EW_BLOCK ? items : start + (size_t)EW_BLOCK;
 		size_t middle = direct < start ? start : direct < end ? direct : end;
@@ -124,7 +123,7 @@ static void EW_LOCAL(run_lanes)(int id, const EW_LOCAL(vertices) *v, const EW_RE
 #if EW_IS_FLOAT
 		for (size_t i = 0; i < cells; ++i)
 			wide[i] += (double)sum[i];
-		by->clear(sum, cells);
+		v->by->clear(sum, cells);
 #endif
 	}
 }
@@ -189,7 +188,9 @@ static int EW_LOCAL(is_closed)(const EW_REAL *x, const EW_REAL *y, size_t stride
 static EW_LOCAL(vertices) EW_LOCAL(plain)(const EW_REAL *x, const EW_REAL *y, size_t stride,
 	size_t n)
 {
-	EW_LOCAL(vertices) v = { x, y, stride, n, 0, 0, 0, 0, 0, 1 };
+	const unsigned target = ew_cpu_target();
+	EW_LOCAL(vertices) v = { x, y, stride, n, target, EW_LOCAL(by_columns)(target), 0, 0, 0, 0,
+		0, 1 };
 	v.n -= n == EW_SHORT && EW_LOCAL(is_closed)(x, y, stride, n);
 	return v;
 }

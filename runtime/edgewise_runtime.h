@@ -14,9 +14,7 @@ enum {
 	EW_SHORT = 24,       /* rings of fewer vertices run in one lane, by definition */
 	EW_STAGE = 256,      /* vertices moved or gathered at a time; not part of the definition */
 	EW_TILE = EW_SHORT + 4,      /* room for the columns of rings side by side */
-	EW_SIDES = 3,                /* degrees from 0 that are summed up in registers */
-	EW_CACHED = 1 << 22,         /* bytes of results that are worth keeping in the caches */
-	EW_AHEAD = 256               /* vertices that are asked for in advance */
+	EW_SIDES = 3                 /* degrees from 0 that are summed up in registers */
 };
 
 #define EW_SLACK (1 + 0x1p-48)         /* more than a few roundings of double */
@@ -31,21 +29,25 @@ typedef struct {
  *
  * move: to[i] = from[i * stride] - origin, stride 1 or 2.
  * clear: to[i] = 0; count is a multiple of the number of virtual lanes.
+ * divide: to[i] = a[i] / b[i]; likewise.
  * gather: tile_x[c * width + l] is x of vertex c of the ring of lane l, and its first one again for
- * c >= lengths[l] (not read if shortest is longest); less the first one with `moved`. Columns
- * 0 .. longest + 1 are written, up to EW_TILE may be; vertices from start[l] to 3 places past
- * `longest` may be read. NULL for scalar targets, whose width is 1.
- * side[degree]: the sums of the kernel for the moments to that degree over such rings, which then
- * never leave the registers. */
+ * c >= lengths[l] (not read if shortest is longest). Columns 0 .. longest + 1 are written, up to
+ * EW_TILE may be; vertices from start[l] to 3 places past `longest` may be read. NULL for scalar
+ * targets, whose width is 1.
+ * side[degree]: the sums of the kernel for the moments to that degree over such rings, whose
+ * columns then never leave the registers; NULL where there is none.
+ * centroid: the same of degree 1, about the first vertex of each ring. */
 #define EW_COLUMNS_TYPE(f, real) \
+typedef void ew_ring_side##f(const real *x, const real *y, const ew_ring_lanes *lanes, \
+	const real *lengths, real *sum); \
 typedef struct { \
 	size_t width; \
 	void (*move)(const real *from, size_t stride, real origin, size_t count, real *to); \
 	void (*clear)(real *to, size_t count); \
+	void (*divide)(const double *a, const double *b, size_t count, double *to); \
 	void (*gather)(const real *x, const real *y, const ew_ring_lanes *lanes, \
-		const real *lengths, int moved, real *tile_x, real *tile_y); \
-	void (*side[EW_SIDES])(const real *x, const real *y, const ew_ring_lanes *lanes, \
-		const real *lengths, int moved, real *sum); \
+		const real *lengths, real *tile_x, real *tile_y); \
+	ew_ring_side##f *side[EW_SIDES], *centroid; \
 } ew_ring_columns##f;
 EW_COLUMNS_TYPE(, double)
 EW_COLUMNS_TYPE(f, float)
@@ -53,21 +55,15 @@ EW_COLUMNS_TYPE(f, float)
 
 /* EW_ALIGNED: to a cache line, which is also the widest register. */
 #if defined(__GNUC__) || defined(__clang__)
-#define EW_PREFETCH(address) __builtin_prefetch(address)
 #define EW_ALIGNED __attribute__((aligned(64)))
 #define EW_INLINE __attribute__((always_inline)) static inline
 #elif defined(_MSC_VER)
-#define EW_PREFETCH(address) (void)0
 #define EW_ALIGNED __declspec(align(64))
 #define EW_INLINE static __forceinline
 #else
-#define EW_PREFETCH(address) (void)0
 #define EW_ALIGNED
 #define EW_INLINE static inline
 #endif
-
-/* to[i] = a[i] / b[i]; count is a multiple of the number of virtual lanes. */
-typedef void ew_ring_divide(const double *a, const double *b, size_t count, double *to);
 
 #ifdef __cplusplus
 extern "C" {
@@ -76,7 +72,6 @@ extern "C" {
 unsigned ew_cpu_target(void);  /* the forced target, or the best one: one bit */
 const ew_ring_columns *ew_ring_by_columns(unsigned target);
 const ew_ring_columnsf *ew_ring_by_columnsf(unsigned target);
-ew_ring_divide *ew_ring_divide_by_target(unsigned target);
 
 #ifdef __cplusplus
 }

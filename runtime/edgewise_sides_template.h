@@ -1,32 +1,34 @@
 /* edgewise_sides_template.h - rings side by side, transposed and summed up in registers; included
- * by edgewise_columns_template.h once per low degree.
+ * by edgewise_columns_template.h once per low degree, and once more for the centroid.
  *
- * EW_SIDE(stem) names what belongs to the degree, EW_SUMS counts its accumulators, and
- * EW_NEXT(k) takes column k of a block: vertex j of every ring, in (vx, vy), behind (px, py) and qy
- * before that. The rings begin with their first vertex repeated and end with it twice, which adds
- * 0 and closes them; with two turns the parity of j is that of k.
+ * EW_SIDE is the name of the function, EW_SUMS counts its accumulators, and EW_NEXT(k) takes column
+ * k of a block: vertex j of every ring, in (vx, vy), behind (px, py) and qy before that; with
+ * EW_MOVED, less the first vertex of the ring. The rings begin with their first vertex repeated and
+ * end with it twice, which adds 0 and closes them; with two turns the parity of j is that of k.
  *
  * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 
-EW_ATTRIBUTE EW_INLINE void EW_SIDE(side_any)(const EW_REAL *x, const EW_REAL *y,
-	const size_t *start, size_t shortest, size_t longest, EW_VECTOR lengths, int moved,
-	EW_REAL *sum)
+EW_ATTRIBUTE static void EW_SIDE(const EW_REAL *x, const EW_REAL *y, const ew_ring_lanes *lanes,
+	const EW_REAL *lengths, EW_REAL *sum)
 {
-	EW_VECTOR bx[EW_COLUMNS], by[EW_COLUMNS], acc[EW_SUMS], fx, fy, cx, px, py, qy, vx, vy;
+	const int32_t *s = lanes->start;
+	const size_t start[EW_ROWS] = EW_STARTS(s), shortest = lanes->shortest;
+	const size_t longest = lanes->longest;
+	EW_VECTOR bx[EW_COLUMNS], by[EW_COLUMNS], acc[EW_SUMS], left, fx, fy, cx, px, py, qy, vx, vy;
 	size_t c = 0;
 	EW_ISA(block)(x, start, bx);
 	EW_ISA(block)(y, start, by);
 	fx = bx[0];
 	fy = by[0];
-	cx = px = moved ? EW_SUB(fx, fx) : fx;
-	py = qy = moved ? EW_SUB(fy, fy) : fy;
+	cx = px = EW_MOVED ? EW_SUB(fx, fx) : fx;
+	py = qy = EW_MOVED ? EW_SUB(fy, fy) : fy;
 	for (int k = 0; k < EW_SUMS; ++k)
 		acc[k] = EW_SPLAT(0);
 #define EW_TAKE(k, value_x, value_y) \
 	vx = value_x; \
 	vy = value_y; \
-	vx = moved ? EW_SUB(vx, fx) : vx; \
-	vy = moved ? EW_SUB(vy, fy) : vy; \
+	vx = EW_MOVED ? EW_SUB(vx, fx) : vx; \
+	vy = EW_MOVED ? EW_SUB(vy, fy) : vy; \
 	EW_NEXT(k); \
 	px = vx; \
 	qy = py; \
@@ -39,7 +41,8 @@ EW_ATTRIBUTE EW_INLINE void EW_SIDE(side_any)(const EW_REAL *x, const EW_REAL *y
 		EW_ISA(block)(y + c, start, by);
 		EW_EACH(EW_WHOLE)
 	}
-	for (EW_VECTOR left = EW_SUB(lengths, EW_SPLAT((EW_REAL)c)); c < longest; c += EW_COLUMNS) {
+	left = shortest < longest ? EW_LOAD(lengths) : EW_SPLAT((EW_REAL)longest);
+	for (left = EW_SUB(left, EW_SPLAT((EW_REAL)c)); c < longest; c += EW_COLUMNS) {
 		EW_ISA(block)(x + c, start, bx);
 		EW_ISA(block)(y + c, start, by);
 		EW_EACH(EW_PART)
@@ -55,19 +58,7 @@ EW_ATTRIBUTE EW_INLINE void EW_SIDE(side_any)(const EW_REAL *x, const EW_REAL *y
 		EW_STORE(sum + k * EW_WIDTH, acc[k]);
 }
 
-EW_ATTRIBUTE static void EW_SIDE(side)(const EW_REAL *x, const EW_REAL *y,
-	const ew_ring_lanes *lanes, const EW_REAL *lengths, int moved, EW_REAL *sum)
-{
-	const int32_t *s = lanes->start;
-	const size_t start[EW_ROWS] = EW_STARTS(s);
-	const EW_VECTOR length = lanes->shortest < lanes->longest ? EW_LOAD(lengths)
-		: EW_SPLAT((EW_REAL)lanes->longest);
-	if (moved)
-		EW_SIDE(side_any)(x, y, start, lanes->shortest, lanes->longest, length, 1, sum);
-	else
-		EW_SIDE(side_any)(x, y, start, lanes->shortest, lanes->longest, length, 0, sum);
-}
-
 #undef EW_SIDE
 #undef EW_SUMS
 #undef EW_NEXT
+#undef EW_MOVED

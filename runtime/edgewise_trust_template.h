@@ -27,8 +27,10 @@ static double EW_LOCAL(gamma)(double k)
 	return ku < 0.5 ? ku / (1 - ku) * EW_SLACK : (double)INFINITY;
 }
 
-/* What underflow can add: each product of each item loses EW_TINY, and on its way to the result
- * that is multiplied by at most degree + 1 coordinates and small coefficients. */
+/* What underflow can add: each product of each item loses at most EW_TINY. On its way to the
+ * result that is multiplied at most degree times, each time by no more than four coordinates, and
+ * enters at most degree + 2 terms: a factor of at most 4^degree (degree + 2), which is below
+ * 8^(degree + 1), besides powers of the largest coordinate; the coefficients are at most 1. */
 static double EW_LOCAL(underflow)(int degree, const EW_LOCAL(vertices) *v, int products)
 {
 	double largest = 1, tiny = (double)EW_TINY * products * ((double)v->n + 1);

@@ -52,12 +52,12 @@ Green, divergence of the field|green.c|s/rat(degree + 2, 1)/rat(degree + 1, 1)/
 reversal, order of a mirrored row|scheme.c|s/part.term\[i\], reflect)/part.term[reflect ? part.count - 1 - i : i], reflect)/
 END
 
-# name|file of gen/|sed script|what the first failure of tests/rings.c must name
+# name|file of gen/|sed script|test|what its first failure must name
 cat >"$work/rounding.list" <<'END'
-compensated, sign in TwoSum|compensated.c|s/dag_sub(dag, lost_a, lost_b) : dag_add/dag_add(dag, lost_a, lost_b) : dag_add/|ew_area_compensated
-compensated, part of a sum|compensated.c|s/part = dag_sub(dag, sum, a)/part = dag_sub(dag, sum, b)/|ew_area_compensated
-compensated, sign of an error|compensated.c|s/dag_sub(dag, left_error, right_error)/dag_add(dag, left_error, right_error)/|ew_area_compensated
-magnitudes, coordinate with its sign|moments.c|s/end.ref\[var\] = dag_abs(dag, end.ref\[var\]);/end.ref[var] = dag_add(dag, end.ref[var], NONE);/|magnitudes
+compensated, sign in TwoSum|compensated.c|s/dag_sub(dag, lost_a, lost_b) : dag_add/dag_add(dag, lost_a, lost_b) : dag_add/|compensated|compensated area
+compensated, part of a sum|compensated.c|s/part = dag_sub(dag, sum, a)/part = dag_sub(dag, sum, b)/|compensated|compensated area
+compensated, sign of an error|compensated.c|s/dag_sub(dag, left_error, right_error)/dag_add(dag, left_error, right_error)/|compensated|compensated area
+magnitudes, coordinate with its sign|moments.c|s/end.ref\[var\] = dag_abs(dag, end.ref\[var\]);/end.ref[var] = dag_add(dag, end.ref[var], NONE);/|bounded|magnitudes
 END
 
 # name|emitted file|what is compiled, if not that|sed script|test|what its first failure must name
@@ -69,14 +69,14 @@ sign in moments of degree 2|edgewise_moments_fma.c||/^EW_.*moments_2_fma/,/^}/s/
 index in moments of degree 6, float|edgewise_momentsf_portable.c||/moments_6f_portable/,/^}/s/acc9 = acc9/acc9 = acc8/|rings|EW_RING_MOMENTS_6
 index in the finish of degree 3|edgewise_finish.c||/moments_3_finish/,/^}/s/sum\[9 \* stride/sum[8 * stride/|rings|EW_RING_MOMENTS_3
 sign in x2y2|edgewise_integrands_portable.c||/ew_ring_x2y2_portable/,/^}/s/ = x1 - x0;/ = x1 + x0;/|rings|EW_RING_X2Y2
-absolute value in magnitudes of degree 1|edgewise_trust_fma.c||/magnitudes_1_fma/,/^}/s/fabs(x0)/x0/|rings|magnitudes
+absolute value in magnitudes of degree 1|edgewise_trust_fma.c||/magnitudes_1_fma/,/^}/s/fabs(x0)/x0/|bounded|magnitudes
 avx512: shift of the next vector|edgewise_moments_avx512.c||/moments_1_avx512(/,/^}/s/pd_si512(xa), 1)/pd_si512(xa), 2)/|lanes|double, avx512
 avx512: mask one too wide|edgewise_moments_avx512.c||/moments_1_avx512(/,/^}/s/(1u << rest) - 1/(2u << rest) - 1/|lanes|double, avx512
 avx2: second turn of the area|edgewise_momentsf_avx2.c||/moments_0f_avx2(/,/^}/s/y + i + step + 2 \* reach/y + i + step + reach/|lanes|float, avx2
 avx512: second item of the stored shape|edgewise_moments_avx512.c||/moments_6_avx512(/,/^}/s/acc4, h1_1_2/acc4, h1_1/|rings|avx512
 length of a short ring|edgewise_rings_template.h|edgewise_rings.c|s/if (v->n < EW_SHORT)/if (v->n <= EW_SHORT)/|lanes|virtual lanes
 closing vertex of a short ring|edgewise_rings_template.h|edgewise_rings.c|s/v.n -= n == EW_SHORT/v.n -= n == EW_SHORT + 1/|rings|explicitly closed
-lost part of two sums|edgewise_trust_template.h|edgewise_rings.c|s/+ (value - part);/- (value - part);/|rings|ew_area_compensated
+lost part of two sums|edgewise_trust_template.h|edgewise_rings.c|s/+ (value - part);/- (value - part);/|compensated|compensated area
 avx2: lane of a gathered ring|edgewise_columns.c||/ew_ring_block_avx2(/,/^}/s/start\[2\]/start[3]/|batches|mixed sizes between guard pages, double, avx2
 avx2: finish of rings side by side|edgewise_finish_avx2.c||/moments_2_finish_avx2/,/^}/s/, sum4);/, sum3);/|batches|mixed sizes between guard pages, double, avx2
 END
@@ -86,7 +86,7 @@ build_gen() { make -s -C "$1" B=build CFLAGS=-O1 LDFLAGS= build/gen; }
 
 compile() { ${CC:-cc} -std=gnu11 -O1 -ffp-contract=off -I"$tests" "$@"; }
 
-# mutate_gen TREE NAME FILE SCRIPT PART: with PART, the tests must tell, else the proof.
+# mutate_gen TREE NAME FILE SCRIPT TEST PART: with TEST, that must tell, else the proof.
 mutate_gen() {
 	file=$1/gen/$3
 	cp "$file" "$1/original"
@@ -97,7 +97,7 @@ mutate_gen() {
 	elif ! build_gen "$1" >"$1/log" 2>&1; then
 		verdict "$2" "does not compile: $(grep -m 1 error "$1/log")"
 	elif [ "${5:-}" ]; then
-		verdict "$2" "$(untested "$1" "$5")"
+		verdict "$2" "$(untested "$1" "$5" "$6")"
 	else
 		verdict "$2" "$(unproven "$1" "$2")"
 	fi
@@ -117,15 +117,15 @@ unproven() {
 	fi
 }
 
-# TREE PART: what is wrong if the tests pass.
+# TREE TEST PART: what is wrong if the test passes.
 untested() {
 	if ! "$1/build/gen" --quiet --max-degree 2 --targets fma --out "$1/out" >"$1/log" 2>&1; then
 		echo "the proof noticed: $(head -n 1 "$1/log")"
-	elif ! compile -I"$1/out" -o "$1/test" "$tests/rings.c" "$work/reference.o" "$1"/out/*.c \
+	elif ! compile -I"$1/out" -o "$1/test" "$tests/$2.c" "$work/reference.o" "$1"/out/*.c \
 		-lmpfr -lgmp -lm >"$1/log" 2>&1; then
 		echo "does not compile: $(grep -m 1 error "$1/log")"
 	else
-		first_failure "$1/test" "$2"
+		first_failure "$1/test" "$3"
 	fi
 }
 
@@ -148,8 +148,8 @@ worker() {
 		return
 	fi
 	cat "$work/proof.list" "$rounding" | awk -v r="$1" 'NR % 2 == r' >"$tree/list"
-	while IFS='|' read -r name file script part; do
-		mutate_gen "$tree" "$name" "$file" "$script" "$part"
+	while IFS='|' read -r name file script test part; do
+		mutate_gen "$tree" "$name" "$file" "$script" "$test" "$part"
 	done <"$tree/list"
 }
 
@@ -184,10 +184,10 @@ prepare() {
 		compile -c -o "$work/lib/$(basename "$file" .c).o" "$file" ||
 			verdict "$file" "does not compile"
 	done
-	for test in lines rings lanes batches; do
+	for test in lines rings lanes batches bounded compensated; do
 		compile -I"$work/emitted" -c -o "$work/$test.o" "$tests/$test.c" && link $test
 		most=1000
-		[ $test = batches ] && most=10            # the rest takes long
+		[ $test = batches ] || [ $test = bounded ] && most=8      # the rest takes long
 		"$work/$test" 2>&1 | head -n $most >"$work/$test.log"
 		! problem=$(grep -m 1 '^not ok' "$work/$test.log") ||
 			verdict "$test without mutation" "$problem"

@@ -9,7 +9,7 @@
  * Besides the bounds: moments about (0,0) and of interleaved coordinates have the bits of the plain
  * ones, moments about a centre the bits of the ring that was moved beforehand; repeated and closing
  * vertices change nothing; rings of no area and sizes of 1e30 and 1e-30 come out as they must.
- * Magnitudes, which no function returns, are held against sum W itself by calling their kernels.
+ * Magnitudes are tested in bounded.c, the area in twice the precision in compensated.c.
  */
 #include "rings.h"
 
@@ -65,10 +65,7 @@ static void fill_integers(Ring *ring, const Api *api)
 static void fill_mixed(Ring *ring, const Api *api)
 {
 	const int top = api->bits == 24 ? 8 : 20;
-	for (size_t i = 0; i < ring->n; i++) {
-		ring->x[i] = random_scaled(-top, top);
-		ring->y[i] = random_scaled(-top, top);
-	}
+	ring_scaled(ring, -top, top);
 }
 
 /* Collinear, exactly so in the numbers that are passed, and far from exact in the products. */
@@ -605,151 +602,6 @@ static void test_extremes(const Api *api, const char *target)
 	ref_free(area, 1);
 }
 
-/* Trust (more of it in trust.c): magnitudes, of which bounds are made, and the area in twice the
- * precision. */
-
-#define RUN(id, kernel, f, a) [id] = kernel,
-#define TABLES(TARGET, target, doubles) \
-	static ew_ring_run *const run_##target[ROWS] = { EW_RINGS_##TARGET##_DOUBLE(RUN) }; \
-	static ew_ring_runf *const runf_##target[ROWS] = { EW_RINGS_##TARGET##_FLOAT(RUN) };
-EW_TARGETS(TABLES)
-
-typedef struct {
-	const char *target;
-	ew_ring_run *const *run;
-	ew_ring_runf *const *runf;
-} Kernels;
-
-#define KERNELS(TARGET, target, doubles) { #target, run_##target, runf_##target },
-
-static const Kernels *kernels_of(const char *target)
-{
-	static const Kernels all[] = { EW_TARGETS(KERNELS) };
-	for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-		if (strcmp(all[i].target, target) == 0)
-			return &all[i];
-	}
-	abort();
-}
-
-/* What a kernel adds up over a ring of at most 1024 items and at least three vertices, by the
- * definition of lanes; results in double. `closed` ends with its first vertex. */
-static void run_kernel(const Api *api, const Kernels *kernels, const Row *row, const Ring *closed,
-	double out[MOMENTS])
-{
-	const long id = row - ring_rows;
-	const bool is_float = api->bits == 24;
-	const size_t n = closed->n - 1, lanes = ring_lanes(api, n), stride = is_float ? 16 : 8;
-	const size_t items = n + 2 - ring_shapes[id].window;
-	double origin[16], sum[EW_MAX_ACCUMULATORS * 16] = { 0 }, total[EW_MAX_ACCUMULATORS];
-	float originf[16], sumf[EW_MAX_ACCUMULATORS * 16] = { 0 };
-	for (int l = 0; l < 16; l++)
-		originf[l] = (float)(origin[l] = closed->x[0]);
-	if (is_float)
-		kernels->runf[id](closed->px, closed->py, originf, 1, lanes, items, sumf);
-	else
-		kernels->run[id](closed->px, closed->py, origin, 1, lanes, items, sum);
-	for (size_t i = 0; i < (size_t)row->accumulators; i++) {
-		double *lane = sum + i * stride;
-		for (size_t l = 0; l < lanes && is_float; l++)
-			lane[l] = (double)sumf[i * stride + l];
-		for (size_t half = lanes / 2; half > 0; half /= 2) {
-			for (size_t l = 0; l < half; l++)
-				lane[l] += lane[l + half];
-		}
-		total[i] = lane[0];
-	}
-	ring_shapes[id].finish(total, out, 1);
-}
-
-/* W instead of the value. */
-static Ref magnitude(const Ref *ref)
-{
-	return (Ref){ { *ref->weight }, { *ref->weight } };
-}
-
-static void expect_magnitudes(const Api *api, const Kernels *kernels, const Case *c,
-	const Ring *closed, int degree)
-{
-	double out[MOMENTS], moments[MOMENTS], want[MOMENTS];
-	const Row *row = find_row("magnitudes", degree, 0);
-	const Ring *ring = &c->ring;
-	const long k = ring_k(api, row, ring->n);
-	run_kernel(api, kernels, row, closed, out);
-	for (int i = 0; i < ref_count(degree); i++) {
-		const Ref sum = magnitude(degree ? &c->moments[i] : c->area);
-		expect_within(out[i], &sum, k, api->bits,
-			ref_tiny(k, degree, api->bits, ring->x, ring->y, ring->n),
-			"%s, n = %zu: magnitude %d of degree %d", c->kind, ring->n, i, degree);
-	}
-	run_kernel(api, kernels, find_row("moments", degree, 0), closed, moments);
-	api->moments(degree, ring->px, ring->py, ring->n, want);
-	for (int i = 0; i < ref_count(degree); i++)
-		expect(same_bits(round_to(api->bits, moments[i]), get(api, want, i)),
-			"n = %zu, degree %d: the kernel called directly gives %a, ew_moments %a",
-			ring->n, degree, moments[i], get(api, want, i));
-}
-
-static void test_magnitudes(const Api *api, const char *target)
-{
-	int once[LARGEST];
-	for (int i = 0; i < LARGEST; i++)
-		once[i] = 1;
-	check_begin("magnitudes, %s, %s", api->name, target);
-	for (int i = 0; i < CASES; i++) {
-		const Case *c = &cases_of(api)[i];
-		if (c->ring.n < 3 || ring_count(&c->ring) < c->ring.n)
-			continue;
-		Ring closed = with_copies(api, &c->ring, once, true);
-		for (int d = 0; d <= EW_MAX_DEGREE; d++)
-			expect_magnitudes(api, kernels_of(target), c, &closed, d);
-		ring_free(&closed);
-	}
-	check_end();
-}
-
-/* |got - want| <= bound, exactly. */
-static bool is_bounded(double got, const mpq_t want, const mpq_t bound)
-{
-	mpq_t off;
-	mpq_init(off);
-	mpq_set_d(off, got);
-	mpq_sub(off, off, want);
-	mpq_abs(off, off);
-	const bool ok = mpq_cmp(off, bound) <= 0;
-	mpq_clear(off);
-	return ok;
-}
-
-/* |got - A| <= u |A| + 2 gamma^2 sum W: at most 2 n + 20 roundings on any way into the sum (a
- * product and its error, two products for each vertex, 16 lanes), and as many of what they lost
- * (Ogita, Rump, Oishi 2005, proposition 4.3); the last one to the precision. */
-static void test_compensated(const Api *api, const char *target)
-{
-	mpq_t bound, gamma;
-	mpq_inits(bound, gamma, NULL);
-	check_begin("ew_area_compensated, %s, %s", api->name, target);
-	for (int i = 0; i < CASES; i++) {
-		const Case *c = &cases_of(api)[i];
-		const Ring *ring = &c->ring;
-		const double got = api->compensated(ring->px, ring->py, ring->n);
-		ref_gamma(gamma, 2 * (long)ring->n + 20, api->bits);
-		mpq_mul(gamma, gamma, gamma);
-		mpq_mul(gamma, gamma, c->moments->weight);
-		mpq_mul_2exp(gamma, gamma, 1);
-		mpq_abs(bound, c->moments->value);
-		mpq_div_2exp(bound, bound, (mp_bitcnt_t)api->bits);
-		mpq_add(bound, bound, gamma);
-		if (ring->n < 3)
-			mpq_set_d(bound, 0);
-		expect(is_bounded(got, c->moments->value, bound),
-			"%s, n = %zu: %a, exact %a, allowed %g", c->kind, ring->n, got,
-			mpq_get_d(c->moments->value), mpq_get_d(bound));
-	}
-	check_end();
-	mpq_clears(bound, gamma, NULL);
-}
-
 static bool is_known(const char *family)
 {
 	static const char *const known[] = {
@@ -801,8 +653,6 @@ int main(int argc, char **argv)
 	for_each_target(test_closed);
 	for_each_target(test_nothing);
 	for_each_target(test_extremes);
-	for_each_target(test_magnitudes);
-	for_each_target(test_compensated);
 	free_cases();
 	return check_finish();
 }

@@ -242,6 +242,15 @@ static inline void ring_star_near(Ring *ring, double away, double size)
 	ring_star(ring, cx, cy, size);
 }
 
+/* Coordinates of random sign and size, 2^low to 2^high. */
+static inline void ring_scaled(Ring *ring, int low, int high)
+{
+	for (size_t i = 0; i < ring->n; i++) {
+		ring->x[i] = random_scaled(low, high);
+		ring->y[i] = random_scaled(low, high);
+	}
+}
+
 /* Rounds every coordinate to a multiple of step. */
 static inline void ring_snap(Ring *ring, double step)
 {
