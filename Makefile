@@ -24,7 +24,8 @@ GEN     := util rational polynomial spec green dag fuse evaluate constants bound
            emit_simd emit_ring emit_environment emit_list emit_header bundle deliver main
 RUNTIME := $(addprefix runtime/,edgewise_runtime.h edgewise_precision.h edgewise_dispatch.c \
              edgewise_sides_template.h edgewise_columns_template.h edgewise_columns.c \
-             edgewise_rings_template.h edgewise_trust_template.h edgewise_batches_template.h \
+             edgewise_rings_template.h edgewise_edges_template.h \
+             edgewise_closure_template.h edgewise_trust_template.h edgewise_batches_template.h \
              edgewise_rings.c)
 GEN_OBJ := $(GEN:%=$(B)/obj/%.o)
 LIB     := $(B)/libedgewise.a

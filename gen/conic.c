@@ -65,7 +65,7 @@ static Dag *cap_area(int is_float)
 	Ref most = dag_const(dag, rat((Int)1 << 40, 1));        /* f(most) is 1 already */
 	Ref size = dag_unary(dag, OP_ABS, w);
 	Ref u = dag_name(dag, dag_choose(dag, dag_sub(dag, size, most), most, size), "u");
-	Ref x = dag_name(dag, dag_sub(dag, u, one), "x");
+	Ref x = dag_name(dag, dag_sub(dag, u, one), "excess");
 	Ref y = dag_unary(dag, OP_ABS, x);
 	Ref d = dag_name(dag, dag_add(dag, y, dag_mul(dag, y, u)), "d");     /* |1 - w^2| */
 	Ref q = dag_name(dag, dag_unary(dag, OP_SQRT, d), "q");
@@ -73,7 +73,7 @@ static Dag *cap_area(int is_float)
 	Ref whole = dag_add(dag, log.half, log.half);
 	Ref top = dag_choose(dag, w, dag_sub(dag, dag_mul(dag, u, whole), q),
 		dag_mul(dag, dag_const(dag, number(NUMBER_PI)), u));
-	Ref rest = dag_name(dag, divide(dag, top, dag_mul(dag, q, d)), "rest");
+	Ref rest = dag_name(dag, divide(dag, top, dag_mul(dag, q, d)), "tail");
 	Ref near = dag_name(dag, near_f(dag, is_float, u, x), "near");
 	Ref far = dag_sub(dag, one, rest), opposite = dag_sub(dag, near, rest);
 	Ref beyond = dag_sub(dag, w, dag_const(dag, rat(2, 1)));

@@ -67,7 +67,7 @@ static Edge_values edge_values(Dag *dag, int is_float)
 	e.q1 = dag_name(dag, dot(dag, e.x1, e.y1, e.x1, e.y1), "q1");
 	e.r0 = dag_name(dag, dag_unary(dag, OP_SQRT, e.q0), "r0");
 	e.r1 = dag_name(dag, dag_unary(dag, OP_SQRT, e.q1), "r1");
-	e.sum = dag_name(dag, dag_add(dag, e.r0, e.r1), "sum");
+	e.sum = dag_name(dag, dag_add(dag, e.r0, e.r1), "radii");
 	e.safe = dag_name(dag, or_one(dag, e.sum), "safe");
 	e.inverse = dag_name(dag, divide(dag, e.one, e.safe), "inverse");
 	Ref dx = difference_of(dag, VAR_X0, VAR_X1, "dx");

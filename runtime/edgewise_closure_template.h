@@ -65,10 +65,3 @@ int EW_NAME(is_closed)(const EW_REAL *x0, const EW_REAL *y0, const EW_REAL *x1, 
 	return sum == 0 && !bad;
 }
 
-EW_REAL EW_NAME(line_closure)(EW_REAL x0, EW_REAL y0, EW_REAL x1, EW_REAL y1, EW_REAL px,
-	EW_REAL py)
-{
-	const EW_REAL start = (x0 - px) * (y0 - py);
-	const EW_REAL end = (x1 - px) * (y1 - py);
-	return start - end;
-}

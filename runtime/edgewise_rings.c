@@ -29,6 +29,50 @@ static int ew_ring_of_monomial(int m, int n)
 #undef EW_CASE
 #endif
 
+#ifdef EW_MAX_CURVE_DEGREE
+/* What runs over edges of a kind one by one, for the moments to a degree. */
+static int ew_ring_kind(int kind, int degree)
+{
+	static const short line[] = { EW_IDS_LINE };
+#ifdef EW_HAS_QUADS
+	static const short quad[] = { EW_IDS_QUAD };
+#else
+	static const short *const quad = NULL;
+#endif
+#ifdef EW_HAS_CONICS
+	static const short conic[] = { EW_IDS_CONIC };
+#else
+	static const short *const conic = NULL;
+#endif
+#ifdef EW_HAS_CUBICS
+	static const short cubic[] = { EW_IDS_CUBIC };
+#else
+	static const short *const cubic = NULL;
+#endif
+	const short *const ids[EW_KINDS] = { line, quad, conic, cubic };
+	return ids[kind][degree];
+}
+#endif
+
+#ifdef EW_HAS_PATHS
+/* By verb: points that it takes, and the kind of its edge. */
+static const size_t ew_path_points[] = { 1, 1, 2, 2, 3, 0 };
+static const int ew_path_kinds[] = { 0, EW_KIND_LINE, EW_KIND_QUAD, EW_KIND_CONIC, EW_KIND_CUBIC, 0 };
+#endif
+
+#ifdef EW_HAS_DISTANCE
+static int ew_ring_of_radius(int k)
+{
+	switch (k) {
+	case -1: return EW_RING_RADIUS_INVERSE;
+	case 1:  return EW_RING_RADIUS_1;
+	case 3:  return EW_RING_RADIUS_3;
+	case 5:  return EW_RING_RADIUS_5;
+	}
+	return -1;
+}
+#endif
+
 #ifdef EW_MAX_DEGREE
 /* a_mn <- sum C(m,i) C(n,j) dx^(m-i) dy^(n-j) a_ij, in place:
  * repeated a_m += dx a_(m-1), then the same in y. */
@@ -75,6 +119,10 @@ static ew_ring_finish *ew_ring_finish_columns(unsigned used, int degree, size_t 
 #define EW_IS_FLOAT 0
 #include "edgewise_precision.h"
 #include "edgewise_rings_template.h"
+#include "edgewise_edges_template.h"
+#ifdef EW_HAS_CLOSURE
+#include "edgewise_closure_template.h"
+#endif
 #ifdef EW_MAX_DEGREE
 #include "edgewise_trust_template.h"
 #include "edgewise_batches_template.h"
@@ -86,6 +134,10 @@ static ew_ring_finish *ew_ring_finish_columns(unsigned used, int degree, size_t 
 #define EW_IS_FLOAT 1
 #include "edgewise_precision.h"
 #include "edgewise_rings_template.h"
+#include "edgewise_edges_template.h"
+#ifdef EW_HAS_CLOSURE
+#include "edgewise_closure_template.h"
+#endif
 #ifdef EW_MAX_DEGREE
 #include "edgewise_trust_template.h"
 #include "edgewise_batches_template.h"

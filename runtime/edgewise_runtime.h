@@ -12,10 +12,15 @@ enum {
 	EW_LANES_FLOAT = 16,
 	EW_BLOCK = 1024,     /* items between two flushes of float lanes to double, by definition */
 	EW_SHORT = 24,       /* rings of fewer vertices run in one lane, by definition */
+	EW_EDGES = 64,       /* edges of a kind that are gathered at a time; by definition, in float */
 	EW_STAGE = 256,      /* vertices moved or gathered at a time; not part of the definition */
 	EW_TILE = EW_SHORT + 4,      /* room for the columns of rings side by side */
 	EW_SIDES = 3                 /* degrees from 0 that are summed up in registers */
 };
+
+/* Kinds of edges, in the order in which their sums are added. */
+enum { EW_KIND_LINE, EW_KIND_QUAD, EW_KIND_CONIC, EW_KIND_CUBIC, EW_KINDS };
+#define EW_SHARP 0x1p40                /* weight from which a conic is its control polygon */
 
 #define EW_SLACK (1 + 0x1p-48)         /* more than a few roundings of double */
 
