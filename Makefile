@@ -2,6 +2,7 @@
 #   make             build gen, emit, build build/libedgewise.a, run examples/shapes on real data
 #   make deps        install what the tests need (Debian: apt-get)
 #   make test        all tests            make bench       against machine and peers
+#   make glyphs      examples/glyphs, which needs FreeType
 #   make generated   emit generated/ anew make layers      no object refers upwards in the pipeline
 #   make accept      accept new golden outputs             make clean
 #   make test-cross  the same bits on other machines       make accept-hashes  accept new bits
@@ -32,8 +33,8 @@ LIB     := $(B)/libedgewise.a
 SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
 MATH    := -lmpfr -lgmp -lm
 
-.PHONY: all library objects generated test test-cross deps bench deps-bench layers accept \
-        accept-hashes clean
+.PHONY: all library objects generated glyphs glyphs-if-freetype test test-cross deps bench \
+        deps-bench layers accept accept-hashes clean
 .DELETE_ON_ERROR:
 
 all: library $(B)/shapes
@@ -84,6 +85,22 @@ generated: $(B)/gen
 
 $(B)/shapes: examples/shapes.c library
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
+
+# Where pkg-config does not know FreeType, it may still stand in its usual place.
+FREETYPE = $(or $(shell pkg-config --cflags --libs freetype2 2>/dev/null), \
+           -I/usr/include/freetype2 -lfreetype)
+
+$(B)/glyphs: examples/glyphs.c library
+	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) $(FREETYPE) -lm
+
+glyphs: $(B)/glyphs
+
+glyphs-if-freetype:
+	@if echo '#include <ft2build.h>' | $(CC) -x c -fsyntax-only $(FREETYPE) - 2>/dev/null; then \
+		$(MAKE) --no-print-directory glyphs; \
+	else \
+		rm -f $(B)/glyphs; \
+	fi
 
 # ---- bench: make bench BENCH='--quick --json FILE'; peers are optional (make deps-bench) ----
 
@@ -155,7 +172,7 @@ deps-bench:
 # ---- tests ----
 
 RING_TESTS := rings lanes central ring_contract long_rings kernels batches bounded compensated
-PROGRAMS   := $(addprefix $(B)/tests/,units lines polynomials shapes $(RING_TESTS))
+PROGRAMS   := $(addprefix $(B)/tests/,units constants lines polynomials shapes glyphs $(RING_TESTS))
 TEST_BUILD  = $(CC) -std=gnu11 -Wall -Wextra -ffp-contract=off $(SANITIZE) $(CFLAGS) -Itests
 
 # Expressions of the table in tests/polynomials.c.
@@ -164,7 +181,7 @@ $(B)/polynomials.stamp: $(B)/gen
 		--polynomial 'deep=x^5*y^3/7 - 2.5*x^2*y^4 - 2*x + 1/3' --out $(B)/polynomials
 	@touch $@
 
-$(B)/tests/units: tests/units.c tests/check.h \
+$(B)/tests/units $(B)/tests/constants: $(B)/tests/%: tests/%.c tests/check.h \
 		$(filter-out %/main.o %/deliver.o %/bundle.o,$(GEN_OBJ)) | $(B)/tests
 	$(TEST_BUILD) -o $@ $(filter %.c %.o,$^) $(LDFLAGS) $(MATH)
 
@@ -175,14 +192,16 @@ $(B)/tests/polynomials: tests/polynomials.c tests/reference.c $(B)/polynomials.s
 $(B)/tests/%: tests/%.c tests/reference.c $(wildcard tests/*.h) library | $(B)/tests
 	$(TEST_BUILD) -I$(B)/emitted -o $@ $(filter %.c,$^) $(LIB) $(LDFLAGS) $(MATH)
 
-test: $(PROGRAMS) $(B)/shapes
+test: $(PROGRAMS) $(B)/shapes glyphs-if-freetype
 	@sh tests/run.sh $(B)/tests/logs \
 		'layers: sh tests/layers.sh $(B) "$(GEN)"' \
-		'units: $(B)/tests/units' 'readme: sh tests/readme.sh $(B)' \
+		'units: $(B)/tests/units' 'constants: $(B)/tests/constants' \
+		'readme: sh tests/readme.sh $(B)' \
 		'golden: sh tests/golden.sh $(B)' 'counts: sh tests/counts.sh $(B)' \
 		'lines: $(B)/tests/lines' $(foreach t,$(RING_TESTS),'$(t): $(B)/tests/$(t)') \
 		'polynomials: $(B)/tests/polynomials' \
 		'shapes: $(B)/shapes --exact examples/data/countries.txt | $(B)/tests/shapes' \
+		'glyphs: sh tests/glyphs.sh $(B)' \
 		'command-line: sh tests/cli.sh $(B)/gen' \
 		'same-output: sh tests/same_output.sh $(B)' \
 		'mutation: sh tests/mutation.sh $(B)' 'matrix: sh tests/matrix.sh $(B)' \
@@ -203,10 +222,13 @@ accept: $(B)/gen
 	@sh tests/golden.sh $(B) accept
 
 # gmp and mpfr for the reference; the other compilers only widen the compile matrix; the cross
-# compilers and qemu are for test-cross. (gcc-multilib would remove the cross compilers.)
+# compilers and qemu are for test-cross. (gcc-multilib would remove the cross compilers.) FreeType,
+# fonts and fontTools are for examples/glyphs; with munkres fontTools does without SciPy.
 PACKAGES := gcc g++ clang tcc make binutils libc6-dev libgmp-dev libmpfr-dev \
             gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-i686-linux-gnu \
-            libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user
+            libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user \
+            libfreetype-dev pkg-config fonts-dejavu-core fonts-gfs-didot python3-fonttools \
+            python3-munkres
 deps:
 	@if command -v apt-get >/dev/null; then \
 		run=; [ "$$(id -u)" = 0 ] || run=sudo; \

@@ -1,0 +1,460 @@
+/* glyphs.c - the output of `glyphs --exact` against exact rationals.
+ *
+ * The printed outlines are taken as they are: coordinates are multiples of 1/2, so the moments of
+ * the regions are rational. A curve of degree D is a polynomial in t and s = 1 - t, kept by its
+ * integer coefficients of t^a s^b, and the integral of t^a s^b over the curve is a! b!/(a+b+1)!.
+ * Exact moments come from
+ *
+ *     (m+1) M_mn = closed integral of x^(m+1) y^n dy,
+ *
+ * which is not the form that the library uses. The printed results must lie within a-priori bounds,
+ * which stand above the function that asserts them. There u = 2^-53, gamma(k) = k u/(1 - k u), and
+ * W is the sum over all edges of the terms of the library's form, each of them made positive. */
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <gmp.h>
+
+#include "edgewise_kernels.h"
+
+enum { M00, M10, M01, M20, M11, M02, MOMENTS };
+enum { AREA, MEAN, VARIANCE = 3, DEVIATION = 5, COVARIANCE = 7, CORRELATION, SLANT, STATISTICS };
+enum { RAW, CENTROID, SECOND, DERIVED, EMPTY, GROUPS };
+enum { LINES = 1, QUADS, CUBICS, KINDS }; /* by degree */
+enum { LONGEST = 12 };                    /* coefficients of x^3 dy of a cubic */
+
+static const char *const group_names[GROUPS] = {
+	"raw moments", "centroid", "second moments", "derived statistics", "glyphs without area",
+};
+static const char *const moment_names[MOMENTS] = { "m00", "m10", "m01", "m20", "m11", "m02" };
+static const int power_x[MOMENTS] = { 0, 1, 0, 2, 1, 0 }, power_y[MOMENTS] = { 0, 0, 1, 0, 1, 2 };
+
+static const double U = 0x1p-53;
+static const double SLACK = 1.000001; /* the bounds are rounded themselves */
+
+/* Coefficient i belongs to t^i s^(degree - i). */
+typedef struct {
+	mpz_t c[LONGEST];
+	int degree;
+} Form;
+
+typedef struct {
+	char name[80];
+	size_t edges[KINDS];
+	double centre[2], moments[MOMENTS], statistics[STATISTICS];
+	mpq_t exact[MOMENTS], weight[MOMENTS]; /* about the centre */
+} Glyph;
+
+static char whys[GROUPS][200]; /* first failure of each group */
+static double worst[GROUPS];   /* largest error, in bounds */
+
+static void check(int group, const Glyph *glyph, const char *what, double error, double bound)
+{
+	if (bound > 0)
+		worst[group] = fmax(worst[group], error / bound);
+	if (!(error <= bound) && !whys[group][0])
+		snprintf(whys[group], sizeof whys[group],
+			 "%s: the error of %s is %g, allowed is %g", glyph->name, what, error,
+			 bound);
+}
+
+/* ---- polynomials along an edge ---- */
+
+static Form along[2], rise, size[2], turn, product, scratch;
+static mpz_t term;
+static mpq_t sum, part;
+
+static long binomial(int n, int k)
+{
+	return k ? binomial(n, k - 1) * (n - k + 1) / k : 1;
+}
+
+static void set_zero(Form *form, int degree)
+{
+	form->degree = degree;
+	for (int i = 0; i <= degree; i++)
+		mpz_set_ui(form->c[i], 0);
+}
+
+static void multiply(Form *by, const Form *with)
+{
+	set_zero(&scratch, by->degree + with->degree);
+	for (int i = 0; i <= by->degree; i++)
+		for (int j = 0; j <= with->degree; j++)
+			mpz_addmul(scratch.c[i + j], by->c[i], with->c[j]);
+	by->degree = scratch.degree;
+	for (int i = 0; i <= by->degree; i++)
+		mpz_swap(by->c[i], scratch.c[i]);
+}
+
+/* out += the integral of first x^m y^n for t from 0 to 1, over divisor. */
+static void integrate(mpq_t out, const Form *first, const Form xy[2], int m, int n,
+		      unsigned long divisor)
+{
+	set_zero(&product, first->degree);
+	for (int i = 0; i <= first->degree; i++)
+		mpz_set(product.c[i], first->c[i]);
+	for (int i = 0; i < m + n; i++)
+		multiply(&product, &xy[i >= m]);
+	const int degree = product.degree;
+	mpz_set_ui(mpq_numref(part), 0);
+	mpz_fac_ui(mpq_denref(part), (unsigned long)degree + 1);
+	mpz_mul_ui(mpq_denref(part), mpq_denref(part), divisor);
+	for (int i = 0; i <= degree; i++) {
+		mpz_fac_ui(term, (unsigned long)i);
+		mpz_mul(product.c[i], product.c[i], term);
+		mpz_fac_ui(term, (unsigned long)(degree - i));
+		mpz_addmul(mpq_numref(part), product.c[i], term);
+	}
+	mpq_canonicalize(part);
+	mpq_add(out, out, part);
+}
+
+/* Coordinates x0, y0, x1, y1, ..., already twice what they are. along is the edge, rise is dy/dt,
+ * size is along with absolute coordinates, and turn is x dy - y dx with every term positive: with
+ * Bernstein's B and i < j, the cross product of the points i and j stands beside
+ * B_i dB_j - B_j dB_i = (j - i) C(D,i) C(D,j) t^(i+j-1) s^(2D-1-i-j) dt. */
+static void set_forms(const long *p, int degree)
+{
+	for (int xy = 0; xy < 2; xy++) {
+		set_zero(&along[xy], degree);
+		set_zero(&size[xy], degree);
+		for (int i = 0; i <= degree; i++) {
+			mpz_set_si(along[xy].c[i], binomial(degree, i) * p[2 * i + xy]);
+			mpz_abs(size[xy].c[i], along[xy].c[i]);
+		}
+	}
+	set_zero(&rise, degree - 1);
+	for (int i = 0; i < degree; i++)
+		mpz_set_si(rise.c[i],
+			   degree * binomial(degree - 1, i) * (p[2 * i + 3] - p[2 * i + 1]));
+	set_zero(&turn, 2 * degree - 2);
+	for (int i = 0; i < degree; i++)
+		for (int j = i + 1; j <= degree; j++) {
+			mpz_mul(term, size[0].c[i], size[1].c[j]);
+			mpz_addmul_ui(turn.c[i + j - 1], term, (unsigned long)(j - i));
+			mpz_mul(term, size[1].c[i], size[0].c[j]);
+			mpz_addmul_ui(turn.c[i + j - 1], term, (unsigned long)(j - i));
+		}
+}
+
+static void add_edge(Glyph *glyph, const long *p, int degree)
+{
+	set_forms(p, degree);
+	glyph->edges[degree]++;
+	for (int k = 0; k < MOMENTS; k++) {
+		const int m = power_x[k], n = power_y[k];
+		const unsigned long doubled = 1ul << (m + n + 2);
+		const unsigned long green = (unsigned long)(m + 1);
+		const unsigned long form3 = (unsigned long)(m + n + 2);
+		integrate(glyph->exact[k], &rise, along, m + 1, n, doubled * green);
+		integrate(glyph->weight[k], &turn, size, m, n, doubled * form3);
+	}
+}
+
+/* ---- input ---- */
+
+static char line[256];
+static long line_number;
+
+static void malformed(const char *expected)
+{
+	printf("not ok input: line %ld: expected %s\n0 passed, 1 failed\n", line_number, expected);
+	exit(1);
+}
+
+static bool next_line(void)
+{
+	line_number++;
+	const bool more = fgets(line, sizeof line, stdin);
+	line[more ? strcspn(line, "\n") : 0] = '\0';
+	return more;
+}
+
+static void take_numbers(const char *word, double *out, int count, bool finite)
+{
+	char *end = line + strlen(word);
+	if (strncmp(line, word, strlen(word)))
+		malformed(word);
+	for (int i = 0; i < count; i++) {
+		const char *text = end;
+		out[i] = strtod(text, &end);
+		if (end == text || (finite && !isfinite(out[i])))
+			malformed("finite numbers");
+	}
+	if (*end)
+		malformed("fewer numbers");
+	next_line();
+}
+
+/* Multiples of 1/2 that an outline may have, as integers. */
+static void take_points(const char *word, long *out, int count)
+{
+	double numbers[6];
+	take_numbers(word, numbers, 2 * count, true);
+	for (int i = 0; i < 2 * count; i++) {
+		out[i] = lrint(2 * numbers[i]);
+		if ((double)out[i] != 2 * numbers[i] || labs(out[i]) > 1l << 20)
+			malformed("multiples of 1/2, not too large");
+	}
+}
+
+typedef struct {
+	long *points; /* 8 of every edge */
+	int *degrees;
+	size_t count;
+} Edges;
+
+static void *resize(void *array, size_t bytes)
+{
+	void *grown = realloc(array, bytes ? bytes : 1);
+	if (!grown)
+		malformed("fewer edges than fill the memory");
+	return grown;
+}
+
+/* Every contour must end where it started. */
+static void read_outline(Edges *edges)
+{
+	static const char *const verbs[KINDS] = { "move ", "line ", "quad ", "cubic " };
+	long here[2], start[2] = { 0, 0 };
+	double total;
+	take_numbers("outline ", &total, 1, true);
+	edges->points = resize(edges->points, (size_t)total * 8 * sizeof *edges->points);
+	edges->degrees = resize(edges->degrees, (size_t)total * sizeof *edges->degrees);
+	edges->count = 0;
+	memcpy(here, start, sizeof here);
+	for (size_t i = 0; i < (size_t)total; i++) {
+		int degree = CUBICS;
+		while (degree && strncmp(line, verbs[degree], strlen(verbs[degree])))
+			degree--;
+		if (!degree) {
+			if (memcmp(here, start, sizeof here))
+				malformed("a closed contour above");
+			take_points("move ", start, 1);
+			memcpy(here, start, sizeof here);
+			continue;
+		}
+		long *p = edges->points + 8 * edges->count;
+		memcpy(p, here, sizeof here);
+		take_points(verbs[degree], p + 2, degree);
+		memcpy(here, p + 2 * degree, sizeof here);
+		edges->degrees[edges->count++] = degree;
+	}
+	if (memcmp(here, start, sizeof here))
+		malformed("a closed contour above");
+}
+
+static void read_glyph(Glyph *glyph, Edges *edges)
+{
+	long centre[2];
+	if (strncmp(line, "glyph ", 6))
+		malformed("glyph");
+	snprintf(glyph->name, sizeof glyph->name, "%.79s", line);
+	next_line();
+	read_outline(edges);
+	take_points("centre ", centre, 1);
+	memset(glyph->edges, 0, sizeof glyph->edges);
+	for (int k = 0; k < MOMENTS; k++) {
+		mpq_set_ui(glyph->exact[k], 0, 1);
+		mpq_set_ui(glyph->weight[k], 0, 1);
+	}
+	for (size_t i = 0; i < edges->count; i++) {
+		long *p = edges->points + 8 * i;
+		for (int k = 0; k < 2 * edges->degrees[i] + 2; k++)
+			p[k] -= centre[k % 2];
+		add_edge(glyph, p, edges->degrees[i]);
+	}
+	for (int i = 0; i < 2; i++)
+		glyph->centre[i] = (double)centre[i] / 2;
+	take_numbers("moments ", glyph->moments, MOMENTS, true);
+	take_numbers("statistics ", glyph->statistics, STATISTICS, false);
+}
+
+/* ---- checks ---- */
+
+static double gamma_of(double k)
+{
+	return SLACK * k * U / (1 - k * U);
+}
+
+static double distance(const mpq_t exact, double printed)
+{
+	mpq_set_d(part, printed);
+	mpq_sub(part, part, exact);
+	return fabs(mpq_get_d(part));
+}
+
+/* The list of kernels promises k for one curve of a kind, the worst of the moments of degree 2, and
+ * r roundings per further curve in one of 8 lanes; 3 reduce the lanes, and the results of the kinds
+ * of edges, lines, quads, conics and cubics, are added up by 3 more. NaN, which fails, if a kind is
+ * not listed. */
+static double roundings(const Glyph *glyph)
+{
+	static const char *const families[KINDS] = { "", "line_moments", "quad_moments",
+						     "cubic_moments" };
+	static const struct {
+		const char *family;
+		int m, k, r;
+	} rows[] = {
+#define ROW(id, family, m, n, accumulators, outputs, k, r) { #family, m, k, r },
+		EW_RINGS(ROW)
+#undef ROW
+	};
+	double most = 0;
+	for (int kind = LINES; kind < KINDS; kind++) {
+		const double vectors = ceil((double)glyph->edges[kind] / 8);
+		int id = 0;
+		while (id < EW_RINGS_COUNT &&
+		       (strcmp(rows[id].family, families[kind]) || rows[id].m != 2))
+			id++;
+		if (vectors > 0 && id == EW_RINGS_COUNT)
+			return NAN;
+		if (vectors > 0)
+			most = fmax(most, rows[id].k + rows[id].r * (vectors - 1));
+	}
+	return most + 6;
+}
+
+
+/* With E the bounds of the raw moments, A the area, and q a quotient m/A of exact moments, from
+ *     m'/A' - m/A = ((m' - m) - q (A' - A))/A'
+ * follows |q' - q| <= (E_m + |q| E_A)/(|A| - E_A) + u |q'|, where ' marks a computed value. */
+static double quotient_bound(const Glyph *glyph, const double e[MOMENTS], int k, double q)
+{
+	const double area = fabs(mpq_get_d(glyph->exact[M00]));
+	const double moved = (e[k] + fabs(q) * e[M00]) / (area - e[M00]);
+	return SLACK * (moved + U * (fabs(q) + moved));
+}
+
+/* The mean is centre + q', rounded once more. A second moment is p' - (q' r'), two roundings, with
+ * |q' r' - q r| <= |q| dr + |r| dq + dq dr. */
+static void check_quotients(const Glyph *glyph, const double e[MOMENTS])
+{
+	static const int places[MOMENTS] = { 0, 0, 0, VARIANCE, COVARIANCE, VARIANCE + 1 };
+	static const char *const names[] = { "varianceX", "covariance", "varianceY" };
+	double q[2], d[2];
+	mpq_t mean[2];
+	for (int i = 0; i < 2; i++) {
+		const double printed = glyph->statistics[MEAN + i];
+		mpq_init(mean[i]);
+		mpq_div(mean[i], glyph->exact[M10 + i], glyph->exact[M00]);
+		q[i] = mpq_get_d(mean[i]);
+		d[i] = quotient_bound(glyph, e, M10 + i, q[i]);
+		mpq_set_d(part, glyph->centre[i]);
+		mpq_add(sum, mean[i], part);
+		check(CENTROID, glyph, i ? "meanY" : "meanX", distance(sum, printed),
+		      SLACK * (d[i] + U * fabs(printed)));
+	}
+	for (int k = M20; k <= M02; k++) {
+		const int i = k == M02, j = k != M20;
+		const double printed = glyph->statistics[places[k]];
+		mpq_div(sum, glyph->exact[k], glyph->exact[M00]);
+		const double p = quotient_bound(glyph, e, k, mpq_get_d(sum));
+		const double square = fabs(q[i]) * d[j] + fabs(q[j]) * d[i] + d[i] * d[j];
+		mpq_mul(part, mean[i], mean[j]);
+		mpq_sub(sum, sum, part);
+		check(SECOND, glyph, names[k - M20], distance(sum, printed),
+		      SLACK * (p + square + U * (fabs(q[i] * q[j]) + square + fabs(printed))));
+	}
+	mpq_clear(mean[0]);
+	mpq_clear(mean[1]);
+}
+
+static bool same(double a, double b)
+{
+	return a == b || (isnan(a) && isnan(b));
+}
+
+/* The rest is one or two correctly rounded operations on what is printed, so it must be equal. */
+static void check_derived(const Glyph *glyph)
+{
+	const double *s = glyph->statistics;
+	for (int i = 0; i < 2; i++) {
+		const double v = s[VARIANCE + i], root = copysign(sqrt(fabs(v)), v);
+		check(DERIVED, glyph, "a deviation", same(s[DEVIATION + i], root) ? 0 : 1, 0);
+	}
+	const double deviations = s[DEVIATION] * s[DEVIATION + 1], v = s[VARIANCE + 1];
+	const double correlation = deviations != 0 ? s[COVARIANCE] / deviations : NAN;
+	check(DERIVED, glyph, "the area", same(s[AREA], glyph->moments[M00]) ? 0 : 1, 0);
+	check(DERIVED, glyph, "correlation", same(s[CORRELATION], correlation) ? 0 : 1, 0);
+	check(DERIVED, glyph, "slant", same(s[SLANT], v != 0 ? s[COVARIANCE] / v : NAN) ? 0 : 1, 0);
+}
+
+static void check_glyph(const Glyph *glyph)
+{
+	double bound[MOMENTS];
+	const double k = roundings(glyph);
+	for (int i = 0; i < MOMENTS; i++) {
+		bound[i] = gamma_of(k) * mpq_get_d(glyph->weight[i]);
+		check(RAW, glyph, moment_names[i], distance(glyph->exact[i], glyph->moments[i]),
+		      bound[i]);
+	}
+	if (mpq_sgn(glyph->exact[M00])) {
+		check_quotients(glyph, bound);
+		check_derived(glyph);
+		return;
+	}
+	for (int i = 0; i < STATISTICS; i++)
+		check(EMPTY, glyph, "a statistic", same(glyph->statistics[i], 0) ? 0 : 1, 0);
+}
+
+/* ---- the program ---- */
+
+/* mpz_init or mpz_clear, mpq_init or mpq_clear of every number of this program. */
+static void every_number(Glyph *glyph, void (*integer)(mpz_ptr), void (*rational)(mpq_ptr))
+{
+	Form *forms[] = { &along[0], &along[1], &rise, &size[0], &size[1], &turn, &product,
+			  &scratch };
+	for (int i = 0; i < 8; i++)
+		for (int j = 0; j < LONGEST; j++)
+			integer(forms[i]->c[j]);
+	for (int k = 0; k < MOMENTS; k++) {
+		rational(glyph->exact[k]);
+		rational(glyph->weight[k]);
+	}
+	integer(term);
+	rational(sum);
+	rational(part);
+}
+
+static int report(void)
+{
+	int failed = 0;
+	for (int i = 0; i < GROUPS; i++) {
+		failed += whys[i][0] != '\0';
+		if (whys[i][0])
+			printf("not ok %s: %s\n", group_names[i], whys[i]);
+		else
+			printf("ok %s\n", group_names[i]);
+	}
+	printf("%d passed, %d failed\n", GROUPS - failed, failed);
+	return failed || fflush(stdout) || ferror(stdout);
+}
+
+int main(void)
+{
+	Glyph glyph;
+	Edges edges = { 0 };
+	size_t glyphs = 0, totals[KINDS] = { 0 };
+	every_number(&glyph, mpz_init, mpq_init);
+	next_line();
+	do {
+		read_glyph(&glyph, &edges);
+		check_glyph(&glyph);
+		glyphs++;
+		for (int kind = LINES; kind < KINDS; kind++)
+			totals[kind] += glyph.edges[kind];
+	} while (line[0] || !feof(stdin));
+	every_number(&glyph, mpz_clear, mpq_clear);
+	free(edges.points);
+	free(edges.degrees);
+	printf("# %zu glyphs, %zu lines, %zu quads, %zu cubics\n", glyphs, totals[LINES],
+	       totals[QUADS], totals[CUBICS]);
+	printf("# largest errors over their bounds: raw moments %.2g, centroids %.2g, "
+	       "second moments %.2g\n", worst[RAW], worst[CENTROID], worst[SECOND]);
+	return report();
+}
