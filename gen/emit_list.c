@@ -312,9 +312,9 @@ void emit_list(Files *files, const Request *request, const Kernels *kernels)
 static void add_count(Text *text, const char *key, const Program *program)
 {
 	const Count cost = program->cost;
-	text_add(text, ", \"%s\": {\"mul\": %d, \"fma\": %d, \"add\": %d, \"live\": %d, "
-		"\"depth\": %d}", key, cost.mul, cost.fma - cost.mul, cost.add, program->live,
-		program->depth);
+	text_add(text, ", \"%s\": {\"mul\": %d, \"fma\": %d, \"add\": %d, \"div\": %d, "
+		"\"live\": %d, \"depth\": %d}", key, cost.mul, cost.fma - cost.mul, cost.add,
+		cost.divide, program->live, program->depth);
 }
 
 static char *quoted(const char *text)
@@ -352,9 +352,14 @@ static void add_rings(Text *text, const Request *request, const Kernels *kernels
 			window_planes(ring->window),
 			ring->turns, ring->accumulators,
 			ring->outputs);
-		add_count(text, "portable", &ring->portable[0]);
-		if (request->targets & TARGET_FMA)
-			add_count(text, "fma", &ring->fused[0]);
+		const int both = ring->portable[1].dag != ring->portable[0].dag;
+		for (int is_float = 0; is_float <= both; ++is_float) {
+			add_count(text, is_float ? "portable_float" : "portable",
+				&ring->portable[is_float]);
+			if (request->targets & TARGET_FMA)
+				add_count(text, is_float ? "fma_float" : "fma",
+					&ring->fused[is_float]);
+		}
 		text_add(text, ", \"repeat\": %d, \"k\": [", ring->worst.repeat);
 		for (int j = 0; j < ring->outputs && ring->bound; ++j)
 			text_add(text, "%s%d", j ? ", " : "", ring->bound[j].k);

@@ -206,5 +206,7 @@ char *rat_literal(Rat a, int is_float)
 	const char *sign = a.num < 0 ? "-" : "";
 	unsigned long long tail = (unsigned long long)digits;
 	char *hex = format(is_float ? "%06llx" : "%013llx", tail);
+	if (rat_significant(a) && a.den > 1 << 24)     /* not a fraction that anyone would know */
+		return format("%s0x1.%sp%d%s", sign, hex, exponent, suffix);
 	return format("%s0x1.%sp%d%s /* %s */", sign, hex, exponent, suffix, rat_text(a));
 }

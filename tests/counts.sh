@@ -6,7 +6,7 @@
 # Multiplications, fused operations and additions in every single-edge function and in every loop
 # of every ring kernel, against the comment above it, the manifest and the list in
 # edgewise_kernels.h. A loop says in its header how many items it takes at a time: a kernel has up
-# to three (vectors shifted into place, whole vectors, the rest), and the vertex form and the stored
+# to three (vectors shifted into place, whole vectors, the rest; of curves just one), and the vertex form and the stored
 # shape take two items at a time; an item that batches use alone is a function. Moments on targets
 # with FMA are also held against the promised bars. Scalar targets spell operations as C operators,
 # vector targets as intrinsics. Loads, stores and loop headers are not operations, nor is the sign
@@ -41,16 +41,27 @@ function value(json, key) {
 	return substr(json, RSTART + length(key) + 4, RLENGTH - length(key) - 4)
 }
 
+# Programs with constants that are not rational differ between the precisions.
 function json_cost(json, target) {
+	if (is_float && json ~ "\"" target "_float\"")
+		target = target "_float"
 	if (!sub(".*\"" target "\": [{]", "", json))
 		return "none"
-	return value(json, "mul") " mul " value(json, "fma") " fma " value(json, "add") " add"
+	return value(json, "mul") " mul " value(json, "fma") " fma " value(json, "add") " add " \
+		value(json, "div") " div"
 }
+
+function cost() { return mul " mul " fma " fma " add " add " divide " div" }
+
+# As the comments say it, and the list without divisions.
+function pipes() { return mul + fma " and " add }
 
 # Add to mul, fma, add, absolute.
 function count_scalar(text) {
 	lost = gsub(/ew_ring_lostf?\(/, "(", text)
 	fma += gsub(/fmaf?\(/, "(", text)
+	add += gsub(/ew_(max|choose|exponent|fraction)f?\(/, "(", text)
+	divide += gsub(/sqrtf?\(/, "(", text) + gsub(/\//, ",", text)
 	absolute += gsub(/fabsf?\(/, "(", text)
 	mul += gsub(/\*/, ",", text) + lost * lost_mul
 	add += gsub(/[]A-Za-z0-9_)][ \t]*[-+]/, ",", text) + lost * lost_add
@@ -58,14 +69,16 @@ function count_scalar(text) {
 
 function count_vector(text) {
 	absolute += gsub(/EW_ABS_mm|vabsq_f/, "(", text)
+	divide += gsub(/_(div|sqrt)_p|v(div|sqrt)q_/, "(", text)
+	add += gsub(/EW_(MAX|CHOOSE|EXPONENT|FRACTION)_|_max_p/, "(", text)
 	fma += gsub(/_fn?m(add|sub)_p|vfm[as]q_f/, "(", text)
 	mul += gsub(/_mul_p|vmulq_/, "(", text)
 	add += gsub(/_(add|sub)_p|v(add|sub)q_/, "(", text)
-	stray += gsub(/[]A-Za-z0-9_)] [-+*\/] |_(max|min|div)_|v(max|min|div)q/, "(", text)
+	stray += gsub(/[]A-Za-z0-9_)] [-+*\/] |_min_|v(max|min)q/, "(", text)
 }
 
 function count(body, vector) {
-	mul = fma = add = absolute = stray = 0
+	mul = fma = add = divide = absolute = stray = 0
 	gsub(/\/\*[^*]*\*\//, "", body)
 	gsub(/0x[0-9a-f.]+p[-+][0-9]+f?/, "1", body)
 	gsub(/return/, "=", body)
@@ -84,16 +97,15 @@ function check_loop(kernel, ring, target) {
 	vector = target !~ /portable|fma/
 	count(body, vector)
 	where = kernel ", loop " ++loops
-	if (stray || mul % items || fma % items || add % items || absolute % items)
+	if (stray || mul % items || fma % items || add % items || divide % items || absolute % items)
 		fail(where, mul " mul " fma " fma " add " add " absolute " absolute " stray \
 			" stray in " items " items")
-	mul /= items; fma /= items; add /= items; absolute /= items
+	mul /= items; fma /= items; add /= items; divide /= items; absolute /= items
 	if (target == "fma")
 		absolutes[ring] = absolute
-	expect(where, "the comment", comment, mul + fma " and " add)
-	expect(where, "the manifest", json_cost(rings[ring], vector ? "fma" : target),
-		mul " mul " fma " fma " add " add")
-	expect(where, "the list", listed[kernel], mul + fma " and " add)
+	expect(where, "the comment", comment, pipes() " and " divide)
+	expect(where, "the manifest", json_cost(rings[ring], vector ? "fma" : target), cost())
+	expect(where, "the list", listed[kernel], pipes())
 	if (vector)
 		expect(where, "target fma", absolutes[ring] " absolute", absolute " absolute")
 	if (target != "portable" && ring in most_pipe &&
@@ -104,7 +116,7 @@ function check_loop(kernel, ring, target) {
 
 # Each kernel must have been through its loops: one, or whole vectors and the rest.
 function close_kernel() {
-	if (kernel && loops < (kernel ~ /_(portable|fma)$/ ? 1 : 2))
+	if (kernel && loops < (kernel ~ /_(portable|fma)$|_(quad|conic|cubic)_/ ? 1 : 2))
 		fail(kernel, loops " loops found")
 	kernel = ""
 	kernels++
@@ -116,17 +128,15 @@ function check_item(kernel, ring) {
 	count(body, 1)
 	if (stray || absolute)
 		fail(kernel, absolute " absolute " stray " stray")
-	expect(kernel, "the manifest", json_cost(rings[ring], "fma"),
-		mul " mul " fma " fma " add " add")
+	expect(kernel, "the manifest", json_cost(rings[ring], "fma"), cost())
 	items_seen++
 	all_loops++
 }
 
 function check_edge(name, edge) {
 	count(body, 0)
-	expect(name, "the comment", comment, mul " and " add)
-	expect(name, "the manifest", json_cost(edges[edge], "portable"),
-		mul " mul " fma " fma " add " add")
+	expect(name, "the comment", comment, mul " and " add " and " divide)
+	expect(name, "the manifest", json_cost(edges[edge], "portable"), cost())
 	kernels++
 	all_loops++
 }
@@ -148,7 +158,7 @@ function close_file() {
 	expected += 10
 }
 /"function": / {
-	match($0, /ew_line_[^"]*/)
+	match($0, /ew_(line|quad|cubic)_[^"]*/)
 	edges[substr($0, RSTART, RLENGTH)] = $0
 	expected += 2
 }
@@ -164,7 +174,7 @@ FNR == 1 {
 }
 /^ \* Cost( per item)?: / {
 	split($0, part, /(: | mul| or fma|, | add)+/)
-	comment = part[2] " and " part[3]
+	comment = part[2] " and " part[3] " and " ($0 ~ / div or sqrt/ ? part[4] + 0 : 0)
 }
 /void ew_ring_[a-z0-9_]*\($/ {
 	match($0, /ew_ring_[a-z0-9_]+/)
@@ -185,8 +195,8 @@ FNR == 1 {
 	body = ""
 }
 /ew_ring_lost\(double/ { kernel = "ew_ring_lost"; body = ""; inside = 3; next }
-/^(double|float) ew_line_/ {
-	match($0, /ew_line_[a-z0-9_]+/)
+/^(double|float) ew_(line|quad|cubic)_/ {
+	match($0, /ew_[a-z0-9_]+/)
 	kernel = substr($0, RSTART, RLENGTH)
 	inside = 2
 	body = ""
@@ -248,7 +258,7 @@ counts() {
 	folder=$1
 	set -- "$folder"/edgewise_line*.c
 	for target in portable fma avx2 avx512 neon; do
-		for group in moments trust integrands; do
+		for group in moments curves distance trust integrands; do
 			set -- "$@" "$folder/edgewise_$group"*"_$target"*.c
 		done
 	done
