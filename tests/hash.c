@@ -18,13 +18,17 @@
 
 enum {
 	MOST = 2100, MOMENTS = EW_MOMENTS(EW_MAX_DEGREE), KINDS = 3,
-	FIRST = 3, GROWING = 31, MIXED = 24, LONG = 3, BATCH = GROWING + MIXED + LONG
+	FIRST = 3, GROWING = 31, MIXED = 24, LONG = 3, BATCH = GROWING + MIXED + LONG,
+	VERBS = 1500
 };
 
 static const size_t sizes[] = { 0, 2, 3, 4, 7, 8, 9, 16, 17, 23, 24, 40, 257, 1040, MOST };
 
 static double x[MOST], y[MOST], xy[2 * MOST];
 static float xf[MOST], yf[MOST], xyf[2 * MOST];
+static unsigned char verbs[VERBS];
+static double weights[VERBS];
+static float weightsf[VERBS];
 static int32_t offsets[BATCH + 1];
 static uint64_t hash, state;
 
@@ -148,10 +152,71 @@ static void add_batches##f(void) \
 BATCHES(double, )
 BATCHES(float, f)
 
+/* A path over the first n vertices, every kind of edge in turn, a new contour now and then; weights
+ * of all kinds. Returns how many vertices it takes. */
+static size_t make_path(size_t n, size_t *verb_count, size_t *weight_count)
+{
+	static const size_t taken[] = { 1, 1, 2, 2, 3, 0 };
+	size_t point = 0;
+	*verb_count = *weight_count = 0;
+	for (size_t i = 0; i < VERBS; i++) {
+		const unsigned char verb = i % 23 == 0 ? EW_MOVE
+			: i % 23 == 22 ? EW_CLOSE : (unsigned char)(EW_LINE + i * 5 % 7 % 4);
+		if (point + taken[verb] > n)
+			break;
+		if (verb == EW_CONIC) {
+			const double w = x[point] < 0 ? -x[point] : x[point];
+			weights[*weight_count] = i % 3 ? w : i % 2 ? 50 * w : -w / (1 + w);
+			weightsf[*weight_count] = (float)weights[*weight_count];
+			++*weight_count;
+		}
+		point += taken[verb];
+		verbs[(*verb_count)++] = verb;
+	}
+	return point;
+}
+
+/* Paths, edges one by one, distance and closedness. */
+#define KINDS_OF_EDGES(REAL, f) \
+static void add_kinds##f(size_t n) \
+{ \
+	static const int powers[] = { -1, 1, 3, 5 }; \
+	REAL out[MOMENTS], one; \
+	size_t verb_count, weight_count, points = make_path(n, &verb_count, &weight_count); \
+	for (int degree = 0; degree <= EW_MAX_CURVE_DEGREE; degree++) { \
+		add_bits((uint64_t)ew_path_moments##f(degree, verbs, verb_count, xy##f, points, \
+			weights##f, weight_count, out)); \
+		add##f(out, (size_t)EW_MOMENTS(degree)); \
+	} \
+	for (int k = 0; k < 4; k++) { \
+		one = ew_radius##f(powers[k], x##f, y##f, n, 0, 0); \
+		add##f(&one, 1); \
+		one = ew_radius##f(powers[k], x##f, y##f, n, (REAL)0.3, (REAL)-0.2); \
+		add##f(&one, 1); \
+		for (size_t i = 0; i + 1 < n && i < 24; i++) { \
+			one = ew_line_radius##f(powers[k], x##f[i], y##f[i], x##f[i + 1], y##f[i + 1]); \
+			add##f(&one, 1); \
+		} \
+	} \
+	one = n ? ew_closure##f(x##f, y##f, x##f + 1, y##f + 1, n - 1, (REAL)0.3, (REAL)0.7) : 0; \
+	add##f(&one, 1); \
+	add_bits((uint64_t)(n ? ew_is_closed##f(x##f, y##f, x##f + 1, y##f + 1, n - 1) : 0)); \
+}
+
+KINDS_OF_EDGES(double, )
+KINDS_OF_EDGES(float, f)
+
 static void add_edges(void)
 {
 	double value;
 	float valuef;
+	for (size_t i = 0; i + 3 < MOST; i++) {
+		value = ew_quad_area(x[i], y[i], x[i + 1], y[i + 1], x[i + 2], y[i + 2]);
+		add(&value, 1);
+		valuef = ew_cubic_areaf(xf[i], yf[i], xf[i + 1], yf[i + 1], xf[i + 2], yf[i + 2],
+			xf[i + 3], yf[i + 3]);
+		addf(&valuef, 1);
+	}
 	for (size_t i = 0; i + 1 < MOST; i++) {
 #define EDGE(m, n, symbol, k) \
 		value = symbol(x[i], y[i], x[i + 1], y[i + 1]); \
@@ -179,6 +244,8 @@ static void add_all(void)
 			fill(0, sizes[i], kind);
 			add_rings(sizes[i]);
 			add_ringsf(sizes[i]);
+			add_kinds(sizes[i]);
+			add_kindsf(sizes[i]);
 		}
 	for (int kind = 0; kind < KINDS; kind++) {
 		fill_batch(kind);
