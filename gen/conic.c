@@ -17,8 +17,9 @@
  *
  * where sqrt(1-s) is the weight function of a Gauss-Jacobi rule and the rest is smooth: as many
  * nodes as bring the truncation below the rounding (tests/constants.c). From there
- * int x^m y^n X^a Y^b follows by x = m_x + X u_x + Y v_x, one factor at a time. With the chord's own
- * moments, those of a line edge, this gives form 3 of the conic. Source: own derivation. */
+ * int p^m q^n X^a Y^b follows by p = X u_x + Y v_x, one factor at a time, and a translation by m. With
+ * the chord's own moments, those of a line edge, this gives form 3 of the conic. Source: own
+ * derivation. */
 #include "gen.h"
 
 typedef struct { Ref area; Ref middle[2], u[2], v[2]; } Frame;   /* area: T */
@@ -94,7 +95,7 @@ typedef struct {
 	int degree;
 	Frame frame;
 	Ref cap[SIDE][SIDE];                 /* int X^a Y^b, even a */
-	Ref mixed[SIDE][SIDE][SIDE][SIDE];   /* int x^m y^n X^a Y^b, 0 is "not yet" */
+	Ref mixed[SIDE][SIDE][SIDE][SIDE];   /* int p^m q^n X^a Y^b, 0 is "not yet" */
 } Cap;
 
 static void add_cap_moments(Cap *cap, int is_float)
@@ -131,7 +132,7 @@ static void add_cap_moments(Cap *cap, int is_float)
 	}
 }
 
-/* int x^m y^n X^a Y^b over the cap; NONE where it vanishes. */
+/* int p^m q^n X^a Y^b over the cap, (p, q) = X u + Y v; NONE where it vanishes. */
 static Ref mixed(Cap *cap, int m, int n, int a, int b)
 {
 	Ref *place = &cap->mixed[m][n][a][b];
@@ -140,14 +141,35 @@ static Ref mixed(Cap *cap, int m, int n, int a, int b)
 	if (m == 0 && n == 0)
 		return *place = a % 2 ? NONE : cap->cap[a][b];
 	const int axis = m == 0, less_m = m - !axis, less_n = n - axis;
-	const Ref part[3] = { mixed(cap, less_m, less_n, a, b),
-		mixed(cap, less_m, less_n, a + 1, b), mixed(cap, less_m, less_n, a, b + 1) };
-	const Ref by[3] = { cap->frame.middle[axis], cap->frame.u[axis], cap->frame.v[axis] };
+	const Ref part[2] = { mixed(cap, less_m, less_n, a + 1, b),
+		mixed(cap, less_m, less_n, a, b + 1) };
+	const Ref by[2] = { cap->frame.u[axis], cap->frame.v[axis] };
 	Ref sum = NONE;
-	for (int i = 0; i < 3; ++i)
+	for (int i = 0; i < 2; ++i)
 		if (part[i] != NONE)
 			sum = dag_add(cap->dag, sum, dag_mul(cap->dag, by[i], part[i]));
 	return *place = sum;
+}
+
+static void add_multiple(Dag *dag, Ref *to, Ref factor, Ref from)
+{
+	*to = dag_add(dag, *to, dag_mul(dag, factor, from));
+}
+
+/* From the middle of the chord to the origin: a_m += m_x a_(m-1) again and again, then in y. */
+static void translate(Cap *cap, Ref moment[SIDE][SIDE])
+{
+	const int degree = cap->degree;
+	for (int n = 0; n < degree; ++n)
+		for (int first = 1; first <= degree - n; ++first)
+			for (int m = degree - n; m >= first; --m)
+				add_multiple(cap->dag, &moment[m][n], cap->frame.middle[0],
+					moment[m - 1][n]);
+	for (int m = 0; m < degree; ++m)
+		for (int first = 1; first <= degree - m; ++first)
+			for (int n = degree - m; n >= first; --n)
+				add_multiple(cap->dag, &moment[m][n], cap->frame.middle[1],
+					moment[m][n - 1]);
 }
 
 static Dag *cap_moments(int degree, int is_float)
@@ -160,11 +182,16 @@ static Dag *cap_moments(int degree, int is_float)
 	cap->degree = degree;
 	cap->frame = frame(dag);
 	add_cap_moments(cap, is_float);
+	Ref moment[SIDE][SIDE];
+	for (int m = 0; m <= degree; ++m)
+		for (int n = 0; m + n <= degree; ++n)
+			moment[m][n] = mixed(cap, m, n, 0, 0);
+	translate(cap, moment);
 	finish_room(dag, degree);
 	for (int d = 0; d <= degree; ++d)
 		for (int n = 0; n <= d; ++n) {
 			finish_next(dag, d - n, n, rat(1, 1));
-			dag_accumulate(dag, mixed(cap, d - n, n, 0, 0));
+			dag_accumulate(dag, moment[d - n][n]);
 		}
 	return dag;
 }

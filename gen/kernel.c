@@ -243,7 +243,7 @@ static void build_families(Kernels *all, const Request *request, const Dump *dum
 /* Kernels of moments of curves are long: only these degrees have one, and the highest. */
 static int has_kernel(const Request *request, int degree)
 {
-	return degree <= 2 || degree % 4 == 0 || degree == 6 || degree == request->curves;
+	return degree <= 2 || degree % 4 == 0 || degree == request->curves;
 }
 
 static void build_curves(Kernels *all, const Request *request, int window, const Dump *dump)
