@@ -1,25 +1,25 @@
 /* conic.c - area and moments of the cap between a conic edge and its chord.
  *
- * A conic has the weights 1, w, 1. Its cap, with T = 1/2 cross(p1 - p0, p2 - p0), has the area f(w) T,
+ * A conic has the weights 1, w, 1. Its cap, with T = 1/2 cross(p1 - p0, p2 - p0), has the area
+ * f(w) T,
  *
  *     f(w) = w (phi - w) / (1 - w^2),  phi = acos(w) / sqrt(1 - w^2)       (w > 1: acosh, w^2 - 1)
  *
- * f(0) = 0, f(1) = 2/3, f(inf) = 1. Up to w = 2 it is g + g E(w-1), g = w / (w + 11/16), with a short
- * polynomial E (constants.c); beyond, 1 - (w acosh w - q) / (q D), q^2 = D = w^2 - 1. For
- * -1 < w < 0 the arc is the complementary one: f(-w) = f(w) - pi w / D^(3/2). Below -1 the curve
+ * f(0) = 0, f(1) = 2/3, f(inf) = 1. Up to w = 2 it is g + g E(w-1), g = w / (w + 11/16), with a
+ * short polynomial E (constants.c); beyond, 1 - (w acosh w - q) / (q D), q^2 = D = w^2 - 1. For -1
+ * < w < 0 the arc is the complementary one: f(-w) = f(w) - pi w / D^(3/2). Below -1 the curve
  * passes through infinity; the runtime refuses that.
  *
- * Moments, for 0 <= w <= 3 (the runtime halves other arcs first): p = m + X u + Y v with m the middle
- * of the chord, u = (p2 - p0)/2 and v = p1 - m. The cap is X^2 <= R(Y) = (1 - s)(1 - tau s) for
- * Y = s w/(1+w), 0 <= s <= 1, tau = (w-1)/(w+1). Odd powers of X vanish, for the others
+ * Moments, for 0 <= w <= 3 (the runtime halves other arcs first): p = m + X u + Y v with m the
+ * middle of the chord, u = (p2 - p0)/2 and v = p1 - m. The cap is X^2 <= R(Y) = (1 - s)(1 - tau s)
+ * for Y = s w/(1+w), 0 <= s <= 1, tau = (w-1)/(w+1). Odd powers of X vanish, for the others
  *
  *     int X^a Y^b = 2/(a+1) int R^((a+1)/2) Y^b dY,
  *
  * where sqrt(1-s) is the weight function of a Gauss-Jacobi rule and the rest is smooth: as many
- * nodes as bring the truncation below the rounding (tests/constants.c). From there
- * int p^m q^n X^a Y^b follows by p = X u_x + Y v_x, one factor at a time, and a translation by m. With
- * the chord's own moments, those of a line edge, this gives form 3 of the conic. Source: own
- * derivation. */
+ * nodes as bring the truncation below the rounding (tests/constants.c). From there int p^m q^n X^a
+ * Y^b follows by p = X u_x + Y v_x, one factor at a time, and a translation by m. With the chord's
+ * own moments, those of a line edge, this gives form 3 of the conic. Source: own derivation. */
 #include "gen.h"
 
 typedef struct { Ref area; Ref middle[2], u[2], v[2]; } Frame;   /* area: T */

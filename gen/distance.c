@@ -1,24 +1,25 @@
-/* distance.c - powers of the distance to the origin over the triangle (origin, p0, p1), and the sum
- * that shows whether edges close.
+/* distance.c - powers of the distance to the origin over the triangle (origin, p0, p1), and the
+ * sum that shows whether edges close.
  *
- * Green's theorem in polar form: an edge contributes I_k = s/(k+2) E_k, E_k = int_0^1 |p0 + t d|^k dt,
- * s = x0 y1 - x1 y0. E_k > 0, so that only s cancels, and it is formed from exact products. With
- * the radii r0, r1 of the ends, S = r0 + r1, d = |p1 - p0|, t = d/S in [0, 1] and
- * K(tau) = (atanh(sqrt tau)/sqrt tau - 1)/tau,
+ * Green's theorem in polar form: an edge contributes I_k = s/(k+2) E_k, E_k = int_0^1 |p0 + t d|^k
+ * dt, s = x0 y1 - x1 y0. E_k > 0, so that only s cancels, and it is formed from exact products.
+ * With the radii r0, r1 of the ends, S = r0 + r1, d = |p1 - p0|, t = d/S in [0, 1] and K(tau) =
+ * (atanh(sqrt tau)/sqrt tau - 1)/tau,
  *
  *     4 E_1  = S + (|p0 + p1|^2 + (2s/S)^2 K(t^2)) / S
  *     E_(-1) = 2/S atanh(t)/t,      1 - t without cancellation from p0 . p1
  *     2(k+1) E_k = r0^k + r1^k + e^2 S H_(k-1)(r0, r1) + 2k h^2 E_(k-2),    k = 3, 5
  *
  * where h = s/d is the distance of the edge's line, e = (r1 - r0)/d, and H is the complete
- * homogeneous sum. Every term is >= 0. K comes from its series where t is small, else from atanh t =
- * k ln2/2 + v + v^3 K(v^2), z = (1+t)/(1-t) = 2^k m, v = (m-1)/(m+1). All but s is symmetric in the
- * two ends bit for bit, so swapping them negates the result; where a denominator can be 0, s is 0,
- * and a selection puts 1 in its place. The step from one k to the next is an integration by parts.
+ * homogeneous sum. Every term is >= 0. K comes from its series where t is small, else from atanh t
+ * = k ln2/2 + v + v^3 K(v^2), z = (1+t)/(1-t) = 2^k m, v = (m-1)/(m+1). All but s is symmetric in
+ * the two ends bit for bit, so swapping them negates the result; where a denominator can be 0, s
+ * is 0, and a selection puts 1 in its place. The step from one k to the next is an integration by
+ * parts.
  *
- * Bound: 28 roundings along any path for k = 1 (s 2, each radius 2, the two sums 2, the mean of the
- * logarithm at most a quarter of the sum); the others carry the recursion, 6 more per step, and
- * the logarithm in full for k = -1. */
+ * Bound: 28 roundings along any path for k = 1 (s 2, each radius 2, the two sums 2, the mean of
+ * the logarithm at most a quarter of the sum); the others carry the recursion, 6 more per step,
+ * and the logarithm in full for k = -1. */
 #include "gen.h"
 
 typedef struct {

@@ -1,12 +1,12 @@
-/* emit_environment.c - what every emitted kernel needs around it: protection against contraction and
- * wide arithmetic, which targets a compiler can build, and the operations that no single expression
- * or intrinsic spells (ops.def names them).
+/* emit_environment.c - what every emitted kernel needs around it: protection against contraction
+ * and wide arithmetic, which targets a compiler can build, and the operations that no single
+ * expression or intrinsic spells (ops.def names them).
  *
  * Those have the same bits everywhere: max and choose are comparisons and selections, and the
  * exponent of a number is taken from its bits, relative to those of sqrt(1/2). */
 #include "gen.h"
 
-/* Scalar operations of one precision: type, suffix, unsigned type, mantissa bits, bits of sqrt 1/2. */
+/* Scalar operations of one precision; root: the bits of sqrt 1/2. */
 typedef struct {
 	const char *real, *suffix, *bits, *integer;
 	int mantissa;
@@ -21,23 +21,23 @@ static const Format formats[] = {
 static void add_scalar(Text *text, const Format *f)
 {
 	const char *real = f->real, *suffix = f->suffix;
-	text_add(text, "static inline %s ew_max%s(%s a, %s b)\n{\n\treturn a > b ? a : b;\n}\n",
+	text_add(text, "static inline %s ew_ring_max%s(%s a, %s b)\n{\n\treturn a > b ? a : b;\n}\n",
 		real, suffix, real, real);
-	text_add(text, "static inline %s ew_choose%s(%s a, %s b, %s c)\n{\n"
+	text_add(text, "static inline %s ew_ring_choose%s(%s a, %s b, %s c)\n{\n"
 		"\treturn a > 0 ? b : c;\n}\n", real, suffix, real, real, real);
-	text_add(text, "static inline %s ew_bits%s(%s a)\n{\n\t%s bits;\n"
+	text_add(text, "static inline %s ew_ring_bits%s(%s a)\n{\n\t%s bits;\n"
 		"\tmemcpy(&bits, &a, sizeof bits);\n\treturn bits - %s;\n}\n",
 		f->bits, suffix, real, f->bits, f->root);
-	text_add(text, "static inline %s ew_exponent%s(%s a)\n{\n"
-		"\treturn EW_CAST(%s, EW_CAST(%s, ew_bits%s(a) >> %d));\n}\n",
+	text_add(text, "static inline %s ew_ring_exponent%s(%s a)\n{\n"
+		"\treturn EW_CAST(%s, EW_CAST(%s, ew_ring_bits%s(a) >> %d));\n}\n",
 		real, suffix, real, real, f->integer, suffix, f->mantissa);
-	text_add(text, "static inline %s ew_fraction%s(%s a)\n{\n"
-		"\tconst %s above = ew_bits%s(a), bits = above - (above >> %d << %d) + %s;\n"
+	text_add(text, "static inline %s ew_ring_fraction%s(%s a)\n{\n"
+		"\tconst %s above = ew_ring_bits%s(a), bits = above - (above >> %d << %d) + %s;\n"
 		"\tmemcpy(&a, &bits, sizeof a);\n\treturn a;\n}\n", real, suffix, real,
 		f->bits, suffix, f->mantissa, f->mantissa, f->root);
 }
 
-/* Integer vectors have no conversion to double before AVX-512DQ: 2^52 + k has k in its last bits. */
+/* Before AVX-512DQ 64-bit integers have no conversion: 2^52 + k has k in its last bits. */
 static const char *const X86 =
 	"#define EW_ABS_mm256_pd(a) _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)\n"
 	"#define EW_ABS_mm256_ps(a) _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a)\n"
@@ -155,8 +155,8 @@ void emit_environment(Text *text, const Request *request)
 {
 	text_add(text, "#include <float.h>\n#include <stdint.h>\n#include <string.h>\n\n");
 	add_compiler(text, request);
-	text_add(text, "\n/* Operations that are more than one instruction; see ew_choose, "
-		"ew_exponent and ew_fraction. */\n%s%s", X86, NEON);
+	text_add(text, "\n/* Operations that are more than one instruction; see ew_ring_choose, "
+		"ew_ring_exponent and ew_ring_fraction. */\n%s%s", X86, NEON);
 	text_add(text, "\n/* a > b ? a : b; a > 0 ? b : c; for a >= 1 the integer k with a 2^-k in "
 		"[sqrt 1/2, sqrt 2),\n * and that number. */\n");
 	for (int p = 0; p < precision_count; ++p)

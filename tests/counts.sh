@@ -60,7 +60,7 @@ function pipes() { return mul + fma " and " add }
 function count_scalar(text) {
 	lost = gsub(/ew_ring_lostf?\(/, "(", text)
 	fma += gsub(/fmaf?\(/, "(", text)
-	add += gsub(/ew_(max|choose|exponent|fraction)f?\(/, "(", text)
+	add += gsub(/ew_ring_(max|choose|exponent|fraction)f?\(/, "(", text)
 	divide += gsub(/sqrtf?\(/, "(", text) + gsub(/\//, ",", text)
 	absolute += gsub(/fabsf?\(/, "(", text)
 	mul += gsub(/\*/, ",", text) + lost * lost_mul
