@@ -171,7 +171,7 @@ deps-bench:
 
 # ---- tests ----
 
-RING_TESTS := rings lanes central ring_contract long_rings kernels batches bounded compensated
+RING_TESTS := rings lanes central ring_contract long_rings kernels batches bounded compensated distance closure
 PROGRAMS   := $(addprefix $(B)/tests/,units constants lines polynomials shapes glyphs $(RING_TESTS))
 TEST_BUILD  = $(CC) -std=gnu11 -Wall -Wextra -ffp-contract=off $(SANITIZE) $(CFLAGS) -Itests
 
@@ -188,6 +188,8 @@ $(B)/tests/units $(B)/tests/constants: $(B)/tests/%: tests/%.c tests/check.h \
 $(B)/tests/polynomials: tests/polynomials.c tests/reference.c $(B)/polynomials.stamp | $(B)/tests
 	$(TEST_BUILD) -I$(B)/polynomials -o $@ $(filter %.c,$^) $(B)/polynomials/*.c $(LDFLAGS) \
 		$(MATH)
+
+$(B)/tests/distance: tests/distance_reference.c
 
 $(B)/tests/%: tests/%.c tests/reference.c $(wildcard tests/*.h) library | $(B)/tests
 	$(TEST_BUILD) -I$(B)/emitted -o $@ $(filter %.c,$^) $(LIB) $(LDFLAGS) $(MATH)

@@ -186,7 +186,8 @@ static const Entry kinds[] = {
 	"d = |p1 - p0|, K(t^2) = (atanh(t)/t - 1)/t^2; that is the integral over the triangle (origin, "
 	"p0, p1). Unit: coordinate^3. Error: at most gamma_28 of the result (8 u is the most ever seen). "
 	"An edge of length 0 or whose line passes the origin gives exactly 0. Swapping the ends negates "
-	"the result bit for bit. Squares of coordinates must not overflow. Source: own derivation.",
+	"the result bit for bit. What overflows on the way is computed again on scaled coordinates. "
+	"Source: own derivation.",
 	"REAL ew_line_distance@(" LINE_POINTS ")" },
 	{ has_distance,
 	"The same for the integral of r^k, k = -1, 1, 3 or 5; NaN for any other k. Unit: "
@@ -213,9 +214,9 @@ static const Entry kinds[] = {
 	"REAL px, REAL py)" },
 	{ has_closure,
 	"1 if every vertex is as often the start of an edge as the end of one, bit for bit except that "
-	"-0 is 0; else 0. Exact on closed sets; an open one is taken for closed with probability 2^-64, "
-	"unless it was made by someone who knows the keys, which are fixed: a sum of hashes modulo "
-	"2^64. 0 if a coordinate is NaN or infinite; 1 for no edges. Vertices that are equal only up to "
+	"-0 is 0; else 0. Exact on closed sets; an open one is taken for closed with probability 2^-64 "
+	"(2^(j-64) if every vertex has a surplus that 2^j divides), unless it was made by someone who "
+	"knows the keys, which are fixed: a sum of hashes modulo 2^64. 0 if a coordinate is NaN or infinite; 1 for no edges. Vertices that are equal only up to "
 	"rounding do not match.",
 	"int ew_is_closed@(const REAL *x0, const REAL *y0, const REAL *x1, const REAL *y1, "
 	"size_t edges)" },

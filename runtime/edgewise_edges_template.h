@@ -280,15 +280,37 @@ static EW_REAL EW_LOCAL(edge_value)(int id, EW_REAL x0, EW_REAL y0, EW_REAL x1, 
 #endif
 
 #ifdef EW_HAS_DISTANCE
-EW_REAL EW_NAME(line_distance)(EW_REAL x0, EW_REAL y0, EW_REAL x1, EW_REAL y1)
+/* What was found in coordinates times `scale`, a power of two, in the original ones. */
+static double EW_LOCAL(unscaled)(int k, EW_REAL scale, double value)
 {
-	return EW_LOCAL(edge_value)(EW_RING_RADIUS_1, x0, y0, x1, y1);
+	for (int i = 0; i < k + 2; ++i)
+		value /= (double)scale;
+	return value;
 }
 
+/* Powers of the distance can overflow on the way to a result that does not, and 0 inf is NaN:
+ * then once more on scaled coordinates. */
 EW_REAL EW_NAME(line_radius)(int k, EW_REAL x0, EW_REAL y0, EW_REAL x1, EW_REAL y1)
 {
 	const int id = ew_ring_of_radius(k);
-	return id < 0 ? (EW_REAL)NAN : EW_LOCAL(edge_value)(id, x0, y0, x1, y1);
+	const EW_REAL x[] = { x0, x1 }, y[] = { y0, y1 };
+	EW_REAL value, scale;
+	if (id < 0)
+		return (EW_REAL)NAN;
+	value = EW_LOCAL(edge_value)(id, x0, y0, x1, y1);
+	if (value - value != 0) {
+		EW_LOCAL(vertices) v = EW_LOCAL(plain)(x, y, 1, 2);
+		scale = EW_LOCAL(unit_scale)(&v);
+		if (scale != 0)
+			value = (EW_REAL)EW_LOCAL(unscaled)(k, scale, (double)EW_LOCAL(edge_value)(id,
+				x0 * scale, y0 * scale, x1 * scale, y1 * scale));
+	}
+	return value;
+}
+
+EW_REAL EW_NAME(line_distance)(EW_REAL x0, EW_REAL y0, EW_REAL x1, EW_REAL y1)
+{
+	return EW_NAME(line_radius)(1, x0, y0, x1, y1);
 }
 
 EW_REAL EW_NAME(radius)(int k, const EW_REAL *x, const EW_REAL *y, size_t n, EW_REAL cx, EW_REAL cy)
@@ -302,6 +324,15 @@ EW_REAL EW_NAME(radius)(int k, const EW_REAL *x, const EW_REAL *y, size_t n, EW_
 	v.cx = cx;
 	v.cy = cy;
 	EW_LOCAL(integrate)(id, &v, out);
+	if (out[0] - out[0] != 0) {
+		const EW_REAL scale = EW_LOCAL(unit_scale)(&v);
+		if (scale != 0) {
+			v.moved = 1;
+			v.scale = scale;
+			EW_LOCAL(integrate)(id, &v, out);
+			out[0] = EW_LOCAL(unscaled)(k, scale, out[0]);
+		}
+	}
 	return (EW_REAL)out[0];
 }
 

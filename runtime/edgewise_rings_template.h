@@ -281,7 +281,7 @@ EW_REAL EW_NAME(area)(const EW_REAL *x, const EW_REAL *y, size_t n)
 }
 #endif
 
-#if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 1
+#if defined(EW_HAS_DISTANCE) || (defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 1)
 /* A power of two that brings the moved vertices near 1, or 0 if they are all 0, NaN or infinite. */
 static EW_REAL EW_LOCAL(unit_scale)(const EW_LOCAL(vertices) *v)
 {
@@ -299,6 +299,9 @@ static EW_REAL EW_LOCAL(unit_scale)(const EW_LOCAL(vertices) *v)
 	return (EW_REAL)ldexp(1.0, exponent > 1000 ? -1000 : -exponent);
 }
 
+#endif
+
+#if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 1
 /* Has no moment left the range of its precision? */
 static int EW_LOCAL(is_safe)(double area, double x, double y)
 {

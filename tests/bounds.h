@@ -36,9 +36,13 @@ static inline bool same_bits(double a, double b)
 	return memcmp(&a, &b, sizeof a) == 0 || (a == 0 && b == 0);
 }
 
+/* volatile, because gcc 12 at -O2 drops the conversions of two doubles side by side. */
 static inline double round_to(int bits, double v)
 {
-	return bits == 24 ? (double)(float)v : v;
+	if (bits != 24)
+		return v;
+	const volatile float rounded = (float)v;
+	return (double)rounded;
 }
 
 /* The largest value of cross * h on coordinates of size 1, for any x^m y^n of this degree: before
