@@ -9,7 +9,8 @@
  *
  * which is not the form that the library uses. The printed results must lie within a-priori bounds,
  * which stand above the function that asserts them. There u = 2^-53, gamma(k) = k u/(1 - k u), and
- * W is the sum over all edges of the terms of the library's form, each of them made positive. */
+ * W is the sum over all edges of the terms of the library's form, each of them made positive: in
+ * the power basis about the middle of the edge. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -113,32 +114,70 @@ static void integrate(mpq_t out, const Form *first, const Form xy[2], int m, int
 	mpq_add(out, out, part);
 }
 
-/* Coordinates x0, y0, x1, y1, ..., already twice what they are. along is the edge, rise is dy/dt,
- * size is along with absolute coordinates, and turn is x dy - y dx with every term positive: with
- * Bernstein's B and i < j, the cross product of the points i and j stands beside
- * B_i dB_j - B_j dB_i = (j - i) C(D,i) C(D,j) t^(i+j-1) s^(2D-1-i-j) dt. */
+/* form = sum of power[k] t^k, whose terms are multiplied by (t + s) up to its degree. */
+static void set_powers(Form *form, const mpz_t *power, int degree)
+{
+	set_zero(form, degree);
+	for (int i = 0; i <= degree; i++)
+		for (int k = 0; k <= i; k++)
+			mpz_addmul_ui(form->c[i], power[k],
+				      (unsigned long)binomial(degree - k, i - k));
+}
+
+/* The coefficients of the powers of tau, t = (1 + tau)/2, times 2^degree, each of a control point
+ * made positive. */
+static const long about_middle[KINDS][4][4] = {
+	[LINES] = { { 1, 1 }, { 1, 1 } },
+	[QUADS] = { { 1, 2, 1 }, { 2, 0, 2 }, { 1, 2, 1 } },
+	[CUBICS] = { { 1, 3, 3, 1 }, { 3, 3, 3, 3 }, { 3, 3, 3, 3 }, { 1, 3, 3, 1 } },
+};
+
+/* size: the coordinates in powers of |tau|, turn: x y' - y x' likewise, with every term positive
+ * and doubled, since tau goes from -1 to 1. */
+static void set_sizes(const long *p, int degree)
+{
+	static mpz_t power[2][4], omega[5];
+	for (int xy = 0; xy < 2; xy++) {
+		for (int k = 0; k <= degree; k++) {
+			mpz_init_set_ui(power[xy][k], 0);
+			for (int i = 0; i <= degree; i++)
+				mpz_add_ui(power[xy][k], power[xy][k], (unsigned long)
+					   (about_middle[degree][k][i] * labs(p[2 * i + xy])));
+		}
+		set_powers(&size[xy], (const mpz_t *)power[xy], degree);
+	}
+	for (int k = 0; k <= 2 * degree - 2; k++) {
+		mpz_init_set_ui(omega[k], 0);
+		for (int i = 0; i <= degree; i++)
+			for (int j = i + 1; j <= degree; j++)
+				for (int xy = 0; xy < 2 && i + j - 1 == k; xy++) {
+					mpz_mul(term, power[xy][i], power[!xy][j]);
+					mpz_addmul_ui(omega[k], term, 2ul * (unsigned long)(j - i));
+				}
+	}
+	set_powers(&turn, (const mpz_t *)omega, 2 * degree - 2);
+	for (int k = 0; k <= 2 * degree - 2; k++)
+		mpz_clear(omega[k]);
+	for (int k = 0; k <= degree; k++) {
+		mpz_clear(power[0][k]);
+		mpz_clear(power[1][k]);
+	}
+}
+
+/* Coordinates x0, y0, x1, y1, ..., already twice what they are. along is the edge, rise is
+ * dy/dt. */
 static void set_forms(const long *p, int degree)
 {
 	for (int xy = 0; xy < 2; xy++) {
 		set_zero(&along[xy], degree);
-		set_zero(&size[xy], degree);
-		for (int i = 0; i <= degree; i++) {
+		for (int i = 0; i <= degree; i++)
 			mpz_set_si(along[xy].c[i], binomial(degree, i) * p[2 * i + xy]);
-			mpz_abs(size[xy].c[i], along[xy].c[i]);
-		}
 	}
 	set_zero(&rise, degree - 1);
 	for (int i = 0; i < degree; i++)
 		mpz_set_si(rise.c[i],
 			   degree * binomial(degree - 1, i) * (p[2 * i + 3] - p[2 * i + 1]));
-	set_zero(&turn, 2 * degree - 2);
-	for (int i = 0; i < degree; i++)
-		for (int j = i + 1; j <= degree; j++) {
-			mpz_mul(term, size[0].c[i], size[1].c[j]);
-			mpz_addmul_ui(turn.c[i + j - 1], term, (unsigned long)(j - i));
-			mpz_mul(term, size[1].c[i], size[0].c[j]);
-			mpz_addmul_ui(turn.c[i + j - 1], term, (unsigned long)(j - i));
-		}
+	set_sizes(p, degree);
 }
 
 static void add_edge(Glyph *glyph, const long *p, int degree)
@@ -151,7 +190,8 @@ static void add_edge(Glyph *glyph, const long *p, int degree)
 		const unsigned long green = (unsigned long)(m + 1);
 		const unsigned long form3 = (unsigned long)(m + n + 2);
 		integrate(glyph->exact[k], &rise, along, m + 1, n, doubled * green);
-		integrate(glyph->weight[k], &turn, size, m, n, doubled * form3);
+		const unsigned long scale = 1ul << degree * (m + n + 2);    /* of about_middle */
+		integrate(glyph->weight[k], &turn, size, m, n, doubled * scale * form3);
 	}
 }
 
@@ -294,8 +334,7 @@ static double distance(const mpq_t exact, double printed)
  * not listed. */
 static double roundings(const Glyph *glyph)
 {
-	static const char *const families[KINDS] = { "", "line_moments", "quad_moments",
-						     "cubic_moments" };
+	static const char *const families[KINDS] = { "", "moments", "quad", "cubic" };
 	static const struct {
 		const char *family;
 		int m, k, r;

@@ -57,8 +57,8 @@ static void combine(Ref *out, const Polynomial *p, const Ref *moment)
 static void random_ring(double *x, double *y, size_t n)
 {
 	for (size_t i = 0; i < n; ++i) {
-		x[i] = (double)(float)random_real(-2, 2);
-		y[i] = (double)(float)random_real(-2, 2);
+		x[i] = round_to(24, random_real(-2, 2));
+		y[i] = round_to(24, random_real(-2, 2));
 	}
 }
 
