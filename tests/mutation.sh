@@ -34,7 +34,7 @@ vertex, index of the height|moments.c|s/VAR_Y0, VAR_Y2, "height"/VAR_Y1, VAR_Y2,
 vertex, factor|moments.c|/"height"/,/^}/s/rat(1, 2)/rat(1, 1)/
 magnitudes, sign at the start|moments.c|s/dag_add(dag, left, right), degree/dag_sub(dag, left, right), degree/
 magnitudes, start of the weights|moments.c|s/r->h\[0\]\[0\] = r->w\[0\]\[0\] = start/r->h[0][0] = start, r->w[0][0] = end.ref[VAR_X0]/
-magnitudes, sign of a width|moments.c|s/dag_abs(dag, width)/width/
+magnitudes, sign of a width|moments.c|s/dag_unary(dag, OP_ABS, width)/width/
 compensated, product of an error|compensated.c|s/OP_ERROR, x0, y1, left/OP_ERROR, x0, y1, right/
 compensated, sum|compensated.c|s/dag_out(dag, second.sum)/dag_out(dag, first.sum)/
 matrix, end of a power of x|scheme.c|s/axis_part(dag, &end, image, X_VARS/axis_part(dag, \&end, x, X_VARS/
@@ -47,6 +47,15 @@ fuse, what a product lost|fuse.c|/OP_ERROR/,/return/s/OP_FMS/OP_FMA/
 fuse, operand of a product|fuse.c|s/f->map\[mul->arg\[1\]\]/f->map[mul->arg[0]]/
 schedule, order|schedule.c|s/^\tprogram->order\[program->count++\] = ref;/\tprogram->order[program->count++] = node->arg[0];/
 schedule, last use|schedule.c|s/program->last\[node->arg\[k\]\] = at;/program->last[node->arg[k]] = at - 1;/
+curves, coefficient of a cubic|curves.c|s/coef\[3\] = dag_sub/coef[3] = dag_add/
+curves, factor of a first moment|curves.c|s/whole \/ (j + k + 1)/whole \/ (j + k + 2)/
+curves, sign of a node|curves.c|s/= i ? dag_sub : dag_add;/= i ? dag_add : dag_add;/
+curves, power at a node|curves.c|s/power\[i\].at\[m - 1\]\[0\], v\[i\].x/power[i].at[m - 1][0], v[i].y/
+curves, one node fewer|curves.c|/by_nodes(int/,/^}/s/gauss_legendre(curve_nodes(window, degree)/gauss_legendre(curve_nodes(window, degree) - 1/
+curves, area of a cubic|curves.c|s/scaled(dag, 6, dag_add(dag, c01, c23))/scaled(dag, 5, dag_add(dag, c01, c23))/
+closure, sign|distance.c|s/dag_accumulate(dag, dag_sub(dag, start, end))/dag_accumulate(dag, dag_add(dag, start, end))/
+reversal, order of cross products|distance.c|s/dag_unary(dag, OP_ABS, a), dag_unary(dag, OP_ABS, b)/a, b/
+Green, control points of a curve|green.c|s/int_binomial(p, i), 1)/int_binomial(p, i) + i, 1)/
 Green, integral over the edge|green.c|s/int_mul(p + q + 1, int_binomial/int_mul(p + q + 2, int_binomial/
 Green, divergence of the field|green.c|s/rat(degree + 2, 1)/rat(degree + 1, 1)/
 reversal, order of a mirrored row|scheme.c|s/part.term\[i\], reflect)/part.term[reflect ? part.count - 1 - i : i], reflect)/
@@ -57,7 +66,12 @@ cat >"$work/rounding.list" <<'END'
 compensated, sign in TwoSum|compensated.c|s/dag_sub(dag, lost_a, lost_b) : dag_add/dag_add(dag, lost_a, lost_b) : dag_add/|compensated|compensated area
 compensated, part of a sum|compensated.c|s/part = dag_sub(dag, sum, a)/part = dag_sub(dag, sum, b)/|compensated|compensated area
 compensated, sign of an error|compensated.c|s/dag_sub(dag, left_error, right_error)/dag_add(dag, left_error, right_error)/|compensated|compensated area
-magnitudes, coordinate with its sign|moments.c|s/end.ref\[var\] = dag_abs(dag, end.ref\[var\]);/end.ref[var] = dag_add(dag, end.ref[var], NONE);/|bounded|magnitudes
+distance, series beyond its range|distance.c|s/dag_choose(dag, log.k, beyond, log.series);/log.series;/|distance|edges within
+distance, term of the third power|distance.c|s/rat(3, 8), h2/rat(5, 8), h2/|distance|edges within
+distance, seam of the inverse|distance.c|s/const Rat seam = rat(3, 4)/const Rat seam = rat(2, 1)/|distance|edges within
+conic, side of the seam|conic.c|s/dag_sub(dag, w, dag_const(dag, rat(2, 1)))/dag_sub(dag, dag_const(dag, rat(2, 1)), w)/|conics|area
+conic, power of R|conic.c|s/value\[i\] = dag_mul(dag, value\[i\], square\[i\]);/value[i] = dag_mul(dag, value[i], value[i]);/|conics|moments
+magnitudes, coordinate with its sign|moments.c|s/end.ref\[var\] = dag_unary(dag, OP_ABS, end.ref\[var\]);/end.ref[var] = dag_add(dag, end.ref[var], NONE);/|bounded|magnitudes
 END
 
 # name|emitted file|what is compiled, if not that|sed script|test|what its first failure must name
@@ -117,11 +131,20 @@ unproven() {
 	fi
 }
 
+# TEST: what it needs besides reference.c
+references() {
+	case $1 in
+	distance) echo "$tests/distance_reference.c" ;;
+	curves | conics | paths) echo "$tests/curve_reference.c" ;;
+	esac
+}
+
 # TREE TEST PART: what is wrong if the test passes.
 untested() {
 	if ! "$1/build/gen" --quiet --max-degree 2 --targets fma --out "$1/out" >"$1/log" 2>&1; then
 		echo "the proof noticed: $(head -n 1 "$1/log")"
-	elif ! compile -I"$1/out" -o "$1/test" "$tests/$2.c" "$work/reference.o" "$1"/out/*.c \
+	elif ! compile -I"$1/out" -o "$1/test" "$tests/$2.c" $(references "$2") \
+		"$work/reference.o" "$1"/out/*.c \
 		-lmpfr -lgmp -lm >"$1/log" 2>&1; then
 		echo "does not compile: $(grep -m 1 error "$1/log")"
 	else

@@ -605,7 +605,9 @@ static void test_extremes(const Api *api, const char *target)
 static bool is_known(const char *family)
 {
 	static const char *const known[] = {
-		"moments", "monomial", "magnitudes", "compensated"
+		"moments", "monomial", "magnitudes", "compensated",
+		"line", "quad", "conic", "cubic",      /* curves.c, conics.c, paths.c */
+		"radius", "closure",                   /* distance.c, closure.c */
 	};
 	for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
 		if (strcmp(family, known[i]) == 0)
