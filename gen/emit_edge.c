@@ -134,7 +134,8 @@ void emit_edge(Text *text, const Edge *edge, const Precision *precision)
 	const int m = edge->what ? edge->what->m : 0, n = edge->what ? edge->what->n : 0;
 	const int reverses = program->dag->proof == PROOF_POLYNOMIAL;
 	Mark mark = arena_mark();
-	text_add(text, "/* Contribution of %s:\n *\n", contribution(edge));
+	emit_wrapped(text, "/* ", " * ", format("Contribution of %s:", contribution(edge)));
+	text_add(text, "\n *\n");
 	if (edge->what && edge->window == WINDOW_LINE)
 		add_formula(text, edge, " * ");
 	else
