@@ -70,8 +70,8 @@ static const Entry rings[] = {
 	"about (0,0). out[EW_INDEX(m, n)] = M_mn, EW_MOMENTS(degree) values; unit: "
 	"coordinate^(m+n+2). EW_BAD_DEGREE leaves out untouched. Error: gamma_K times the same sum "
 	"with every term positive, K = k + r (max(ceil(n/8), 23) - 1) + 3, k and r (\"repeat\") "
-	"from the manifest (float: at most k + 63 r + 5, because 16 lanes are flushed to double every 1024 "
-	"edges); degree 0 is computed and bounded as ew_area. Far from the origin the terms are "
+	"from the manifest (float: at most k + 63 r + 5, because 16 lanes are flushed to double "
+	"every 1024 edges); degree 0 is computed and bounded as ew_area. Far from the origin the terms are "
 	"large and cancel: use ew_moments_about or ew_central_moments there. "
 	"Source: Green's theorem; Steger 1996.",
 	"int ew_moments@(int degree, const REAL *x, const REAL *y, size_t n, REAL *out)" },
@@ -216,7 +216,8 @@ static const Entry kinds[] = {
 	"1 if every vertex is as often the start of an edge as the end of one, bit for bit except that "
 	"-0 is 0; else 0. Exact on closed sets; an open one is taken for closed with probability 2^-64 "
 	"(2^(j-64) if every vertex has a surplus that 2^j divides), unless it was made by someone who "
-	"knows the keys, which are fixed: a sum of hashes modulo 2^64. 0 if a coordinate is NaN or infinite; 1 for no edges. Vertices that are equal only up to "
+	"knows the keys, which are fixed: a sum of hashes modulo 2^64. 0 if a coordinate is NaN or "
+	"infinite; 1 for no edges. Vertices that are equal only up to "
 	"rounding do not match.",
 	"int ew_is_closed@(const REAL *x0, const REAL *y0, const REAL *x1, const REAL *y1, "
 	"size_t edges)" },

@@ -208,7 +208,8 @@ static void add_targets(Text *text, const Request *request, const Kernels *kerne
 					target->vector ? target->name : "");
 		text_add(text, "\n");
 	}
-	text_add(text, "\n/* X(TARGET, target, doubles): the targets that this compiler builds, and doubles in a "
+	text_add(text, "\n/* X(TARGET, target, doubles): the targets that this compiler builds, and doubles "
+		"in a "
 		"register */\n"
 		"#define EW_TARGETS(X)%s\n", text_take(&all));
 }

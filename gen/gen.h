@@ -292,7 +292,7 @@ Dag *moments_vertex(Rat value);              /* a constant integrand */
 /* Sums of all terms with positive sign, for the error bound of the moments to a degree. */
 Dag *moments_magnitudes(int degree);
 Integral moments_vertex_magnitude(void);     /* what degree 0 of them is */
-/* The forms of all moments to a degree; that of x^m y^n takes `factor` times the next accumulator. */
+/* The forms of all moments to a degree; `factor` times the next accumulator joins x^m y^n. */
 void finish_room(Dag *dag, int degree);
 void finish_next(Dag *dag, int m, int n, Rat factor);
 

@@ -55,7 +55,7 @@ static Program scheduled(const Dump *dump, const char *name, const char *what, c
 	return program;
 }
 
-/* A curve's function of one edge, area or one monomial: an exact polynomial, or a sum over nodes. */
+/* A curve's function of one edge: the area, or a monomial as a sum over nodes. */
 static void build_curve_edge(Edge *edge, const Dag *dag, const char *name, const Dump *dump)
 {
 	const Integrand *what = edge->what;

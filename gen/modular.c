@@ -2,9 +2,9 @@
  *
  * Expanded into polynomials such a program would have millions of terms. But its constants are
  * dyadic rationals, so program and definition are both polynomials over Q in the coordinates, with
- * coefficients that exist modulo a prime: if they differ, they differ at nearly all points (Schwartz
- * 1980, Zippel 1979: a polynomial of degree d vanishes at no more than d / p of them). The program,
- * run in the order of its schedule, is compared at a few fixed pseudorandom points with
+ * coefficients that exist modulo a prime: if they differ, they differ at nearly all points (a
+ * polynomial of degree d vanishes at no more than d / p of them: Zippel 1979, Schwartz 1980). The
+ * program, run in the order of its schedule, is compared at a few fixed pseudorandom points with
  *
  *     1/(m+n+2) sum over nodes of weight x^m y^n (x y' - y x'),
  *

@@ -3,9 +3,9 @@
  *
  * The edges of a path are gathered by kind: control point v of edge i of a kind goes to x[v][i],
  * y[v][i], the weight of a conic to x[3][i], so that the kernels of rings run over them with
- * reach EW_EDGES. Edge i of its kind goes to lane i mod L, and at the end lanes are added by halving
- * and kinds in the order line, quad, conic, cubic: results do not depend on the target. Float lanes are
- * flushed to double after every EW_EDGES edges.
+ * reach EW_EDGES. Edge i of its kind goes to lane i mod L, and at the end lanes are added by
+ * halving and kinds in the order line, quad, conic, cubic: results do not depend on the target.
+ * Float lanes are flushed to double after every EW_EDGES edges.
  *
  * A conic is its chord and the cap beyond it. The kernels of caps hold for 0 <= w <= 3 (area: for
  * every w > -1); other arcs are halved first, and what is beyond EW_SHARP is its control polygon.

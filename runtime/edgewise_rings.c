@@ -57,7 +57,9 @@ static int ew_ring_kind(int kind, int degree)
 #ifdef EW_HAS_PATHS
 /* By verb: points that it takes, and the kind of its edge. */
 static const size_t ew_path_points[] = { 1, 1, 2, 2, 3, 0 };
-static const int ew_path_kinds[] = { 0, EW_KIND_LINE, EW_KIND_QUAD, EW_KIND_CONIC, EW_KIND_CUBIC, 0 };
+static const int ew_path_kinds[] = {
+	0, EW_KIND_LINE, EW_KIND_QUAD, EW_KIND_CONIC, EW_KIND_CUBIC, 0
+};
 #endif
 
 #ifdef EW_HAS_DISTANCE
