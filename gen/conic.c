@@ -24,6 +24,38 @@
 
 typedef struct { Ref area; Ref middle[2], u[2], v[2]; } Frame;   /* area: T */
 
+typedef struct { Ref value, size; } Cross;             /* the terms of size are positive */
+
+static Cross cross_of(Dag *dag, const Ref *a, const Ref *b, const Ref *size_a, const Ref *size_b)
+{
+	Ref left = dag_mul(dag, a[0], b[1]), right = dag_mul(dag, a[1], b[0]);
+	Ref left_size = dag_mul(dag, size_a[0], size_b[1]);
+	Ref right_size = dag_mul(dag, size_a[1], size_b[0]);
+	return (Cross){ dag_sub(dag, left, right), dag_add(dag, left_size, right_size) };
+}
+
+/* T = 1/2 b x a = 1/4 (a + b) x (p2 - p0), a = p1 - p0, b = p1 - p2: the one whose terms are smaller.
+ * The first is good where p1 is near an end of the chord, the second where it is far away, so that
+ * a and b are nearly parallel: near-semicircles. Both change sign when the curve is reversed. */
+static Ref triangle(Dag *dag, const Ref *a, const Ref *b)
+{
+	Ref sum[2], chord[2], size[4][2];
+	for (int axis = 0; axis < 2; ++axis) {
+		sum[axis] = dag_add(dag, a[axis], b[axis]);
+		chord[axis] = dag_sub(dag, dag_var(dag, VAR_X2 + axis), dag_var(dag, VAR_X0 + axis));
+		size[0][axis] = dag_unary(dag, OP_ABS, a[axis]);
+		size[1][axis] = dag_unary(dag, OP_ABS, b[axis]);
+		size[2][axis] = dag_add(dag, size[0][axis], size[1][axis]);
+		size[3][axis] = dag_unary(dag, OP_ABS, chord[axis]);
+	}
+	const Cross near = cross_of(dag, b, a, size[1], size[0]);
+	const Cross far = cross_of(dag, sum, chord, size[2], size[3]);
+	Ref half = dag_const(dag, rat(1, 2)), quarter = dag_const(dag, rat(1, 4));
+	Ref excess = dag_sub(dag, dag_mul(dag, half, far.size), near.size);
+	return dag_choose(dag, excess, dag_mul(dag, half, near.value),
+		dag_mul(dag, quarter, far.value));
+}
+
 static Frame frame(Dag *dag)
 {
 	Frame f;
@@ -36,10 +68,9 @@ static Frame frame(Dag *dag)
 		b[axis] = dag_sub(dag, p1, p2);
 		f.middle[axis] = dag_mul(dag, half, dag_add(dag, p0, p2));
 		f.u[axis] = dag_mul(dag, half, dag_sub(dag, p2, p0));
-		f.v[axis] = dag_sub(dag, p1, f.middle[axis]);
+		f.v[axis] = dag_mul(dag, half, dag_add(dag, a[axis], b[axis]));
 	}
-	Ref left = dag_mul(dag, a[1], b[0]), right = dag_mul(dag, a[0], b[1]);
-	f.area = dag_name(dag, dag_mul(dag, half, dag_sub(dag, left, right)), "area");
+	f.area = dag_name(dag, triangle(dag, a, b), "area");
 	return f;
 }
 

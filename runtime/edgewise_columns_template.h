@@ -26,22 +26,39 @@ EW_ATTRIBUTE static void EW_ISA(clear)(EW_REAL *to, size_t count)
 		EW_STORE(to + i, EW_SPLAT(0));
 }
 
-#define EW_SELECT_COLUMN(k) \
-	column[k] = EW_SELECT(EW_LOAD(lengths), EW_SPLAT((EW_REAL)(c + k)), column[k], first);
-#define EW_STORE_COLUMN(k) \
+EW_ATTRIBUTE EW_INLINE int EW_ISA(is_zero)(EW_VECTOR v)
+{
+	EW_REAL lane[EW_ROWS], off = 0;
+	EW_STORE(lane, v);
+	for (int l = 0; l < EW_ROWS; ++l)
+		off += lane[l];
+	return off == 0;
+}
+
+EW_ATTRIBUTE static int EW_ISA(widen)(const EW_REAL *from, size_t count, double *to)
+{
+	EW_VECTOR off = EW_SPLAT(0);
+	for (size_t i = 0; i < count; i += EW_ROWS) {
+		const EW_VECTOR v = EW_LOAD(from + i);
+		off = EW_ADD(off, EW_SUB(v, v));
+		EW_STORE_WIDE(to + i, v);
+	}
+	return EW_ISA(is_zero)(off);
+}
+
+#define EW_EACH(X) X(0) X(1) EW_MORE(X)
+#define EW_FILL(k) \
+	column[k] = EW_SELECT(length, EW_SPLAT((EW_REAL)(c + k)), column[k], first); \
 	EW_STORE(tile + (c + k) * EW_ROWS, column[k]);
-/* One coordinate; `ragged` if the lengths differ. */
+/* One coordinate. */
 EW_ATTRIBUTE EW_INLINE void EW_ISA(fill)(const EW_REAL *from, const size_t *start, size_t longest,
-	const EW_REAL *lengths, int ragged, EW_REAL *tile)
+	EW_VECTOR length, EW_REAL *tile)
 {
 	EW_VECTOR column[EW_COLUMNS], first;
 	EW_ISA(block)(from, start, column);
 	first = column[0];
 	for (size_t c = 0; ; EW_ISA(block)(from + c, start, column)) {
-		if (ragged) {
-			EW_EACH(EW_SELECT_COLUMN)
-		}
-		EW_EACH(EW_STORE_COLUMN)
+		EW_EACH(EW_FILL)
 		c += EW_COLUMNS;
 		if (c >= longest)
 			break;
@@ -49,61 +66,58 @@ EW_ATTRIBUTE EW_INLINE void EW_ISA(fill)(const EW_REAL *from, const size_t *star
 	EW_STORE(tile + longest * EW_ROWS, first);
 	EW_STORE(tile + (longest + 1) * EW_ROWS, first);
 }
-#undef EW_SELECT_COLUMN
-#undef EW_STORE_COLUMN
+#undef EW_FILL
 
 EW_ATTRIBUTE static void EW_ISA(gather)(const EW_REAL *x, const EW_REAL *y,
-	const ew_ring_lanes *lanes, const EW_REAL *lengths, EW_REAL *tile_x, EW_REAL *tile_y)
+	const EW_LOCAL(lanes) *lanes, EW_REAL *tile_x, EW_REAL *tile_y)
 {
-	const size_t longest = lanes->longest;
-	const int32_t *s = lanes->start;
-	const size_t start[EW_ROWS] = EW_STARTS(s);
-	if (lanes->shortest < longest) {
-		EW_ISA(fill)(x, start, longest, lengths, 1, tile_x);
-		EW_ISA(fill)(y, start, longest, lengths, 1, tile_y);
-	} else {
-		EW_ISA(fill)(x, start, longest, lengths, 0, tile_x);
-		EW_ISA(fill)(y, start, longest, lengths, 0, tile_y);
-	}
+	const size_t start[EW_ROWS] = EW_STARTS(lanes->start);
+	const EW_VECTOR length = EW_LOAD(lanes->length);
+	EW_ISA(fill)(x, start, lanes->longest, length, tile_x);
+	EW_ISA(fill)(y, start, lanes->longest, length, tile_y);
 }
 
 #ifdef EW_MAX_DEGREE
-#define EW_SIDE EW_ISA(side_0)
+#define EW_SIDE(stem) EW_ISA(stem##_0)
 #define EW_SUMS EW_SUMS_0
 #define EW_NEXT(k) EW_NEXT_0(EW_ITEM(0), k)
 #define EW_MOVED 0
+#define EW_IDLE 1
 #include "edgewise_sides_template.h"
 #endif
 #if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 1
-#define EW_SIDE EW_ISA(side_1)
+#define EW_SIDE(stem) EW_ISA(stem##_1)
 #define EW_SUMS EW_SUMS_1
 #define EW_NEXT(k) EW_NEXT_1(EW_ITEM(1), k)
 #define EW_MOVED 0
+#define EW_IDLE 0
 #include "edgewise_sides_template.h"
-#define EW_SIDE EW_ISA(centroid)
+#define EW_SIDE(stem) EW_ISA(stem##_centroid)
 #define EW_SUMS EW_SUMS_1
 #define EW_NEXT(k) EW_NEXT_1(EW_ITEM(1), k)
 #define EW_MOVED 1
+#define EW_IDLE 1
 #include "edgewise_sides_template.h"
 #endif
 #if defined(EW_MAX_DEGREE) && EW_MAX_DEGREE >= 2
-#define EW_SIDE EW_ISA(side_2)
+#define EW_SIDE(stem) EW_ISA(stem##_2)
 #define EW_SUMS EW_SUMS_2
 #define EW_NEXT(k) EW_NEXT_2(EW_ITEM(2), k)
 #define EW_MOVED 0
+#define EW_IDLE 0
 #include "edgewise_sides_template.h"
 #endif
 
 static const EW_LOCAL(columns) EW_ISA(columns) = {
-	EW_ROWS, EW_ISA(move), EW_ISA(clear), EW_DIVIDE, EW_ISA(gather),
+	EW_ROWS, EW_ISA(move), EW_ISA(clear), EW_ISA(widen), EW_DIVIDE, EW_ISA(gather),
 #ifndef EW_MAX_DEGREE
 	{ NULL }, NULL
 #elif EW_MAX_DEGREE == 0
 	{ EW_ISA(side_0) }, NULL
 #elif EW_MAX_DEGREE == 1
-	{ EW_ISA(side_0), EW_ISA(side_1) }, EW_ISA(centroid)
+	{ EW_ISA(side_0), EW_ISA(side_1) }, EW_ISA(side_centroid)
 #else
-	{ EW_ISA(side_0), EW_ISA(side_1), EW_ISA(side_2) }, EW_ISA(centroid)
+	{ EW_ISA(side_0), EW_ISA(side_1), EW_ISA(side_2) }, EW_ISA(side_centroid)
 #endif
 };
 
@@ -114,11 +128,19 @@ static const EW_LOCAL(columns) EW_ISA(columns) = {
 #undef EW_ATTRIBUTE
 #undef EW_ROWS
 #undef EW_STARTS
+#undef EW_COUNTS
+#undef EW_OVER
+#undef EW_SAME
+#undef EW_MOST
+#undef EW_LENGTHS
 #undef EW_COLUMNS
+#undef EW_MORE
 #undef EW_EACH
 #undef EW_LOAD
 #undef EW_STORE
+#undef EW_STORE_WIDE
 #undef EW_SPLAT
+#undef EW_ADD
 #undef EW_SUB
 #undef EW_SELECT
 #undef EW_EVEN

@@ -147,15 +147,20 @@ int EW_NAME(cubic_moments)(int degree, EW_REAL x0, EW_REAL y0, EW_REAL x1, EW_RE
 #ifdef EW_HAS_CONICS
 static void EW_LOCAL(add_conic)(EW_LOCAL(edges) *e, const EW_REAL *point, EW_REAL w);
 
+/* (p + w p1) / (1 + w), a control point of a half; where w is near -1 all cancels but p - p1. */
+static EW_REAL EW_LOCAL(halfway)(EW_REAL p, EW_REAL p1, EW_REAL w)
+{
+	return w > (EW_REAL)-0.5 ? (p + w * p1) / (1 + w) : p1 + (p - p1) / (1 + w);
+}
+
 /* The two halves, t = 1/2, of a conic with w > -1: their weight is sqrt((1 + w)/2). */
 static void EW_LOCAL(add_halves)(EW_LOCAL(edges) *e, const EW_REAL *p, EW_REAL w)
 {
 	EW_REAL left[6], right[6];
 	for (int axis = 0; axis < 2; ++axis) {
-		const EW_REAL middle = w * p[2 + axis], sum = 1 + w;
 		left[axis] = p[axis];
-		left[2 + axis] = (p[axis] + middle) / sum;
-		right[2 + axis] = (p[4 + axis] + middle) / sum;
+		left[2 + axis] = EW_LOCAL(halfway)(p[axis], p[2 + axis], w);
+		right[2 + axis] = EW_LOCAL(halfway)(p[4 + axis], p[2 + axis], w);
 		left[4 + axis] = right[axis] = (left[2 + axis] + right[2 + axis]) / 2;
 		right[4 + axis] = p[4 + axis];
 	}
@@ -166,8 +171,12 @@ static void EW_LOCAL(add_halves)(EW_LOCAL(edges) *e, const EW_REAL *p, EW_REAL w
 
 static void EW_LOCAL(add_conic)(EW_LOCAL(edges) *e, const EW_REAL *point, EW_REAL w)
 {
+	const int is_point = point[0] == point[2] && point[2] == point[4] && point[1] == point[3]
+		&& point[3] == point[5];
 	if (!(w > -1)) {
 		e->bad = (double)NAN;
+	} else if (is_point) {                  /* halves would differ from it by a rounding */
+		EW_LOCAL(add_line)(e, point, point);
 	} else if (w > (EW_REAL)EW_SHARP) {
 		EW_LOCAL(add_line)(e, point, point + 2);
 		EW_LOCAL(add_line)(e, point + 2, point + 4);

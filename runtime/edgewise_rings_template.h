@@ -185,14 +185,19 @@ static int EW_LOCAL(is_closed)(const EW_REAL *x, const EW_REAL *y, size_t stride
 	return x[0] == x[(n - 1) * stride] && y[0] == y[(n - 1) * stride];
 }
 
-static EW_LOCAL(vertices) EW_LOCAL(plain)(const EW_REAL *x, const EW_REAL *y, size_t stride,
-	size_t n)
+static EW_LOCAL(vertices) EW_LOCAL(plain_on)(unsigned target, const EW_REAL *x, const EW_REAL *y,
+	size_t stride, size_t n)
 {
-	const unsigned target = ew_cpu_target();
 	EW_LOCAL(vertices) v = { x, y, stride, n, target, EW_LOCAL(by_columns)(target), 0, 0, 0, 0,
 		0, 1 };
 	v.n -= n == EW_SHORT && EW_LOCAL(is_closed)(x, y, stride, n);
 	return v;
+}
+
+static EW_LOCAL(vertices) EW_LOCAL(plain)(const EW_REAL *x, const EW_REAL *y, size_t stride,
+	size_t n)
+{
+	return EW_LOCAL(plain_on)(ew_cpu_target(), x, y, stride, n);
 }
 
 #ifdef EW_MAX_DEGREE
@@ -336,14 +341,19 @@ static int EW_LOCAL(centre)(EW_LOCAL(vertices) *v, double d[2], double *area)
 	return moment[0] != 0;
 }
 
+static int EW_LOCAL(centroid_of)(EW_LOCAL(vertices) *v, EW_REAL c[2])
+{
+	double d[2], area;
+	int found = EW_LOCAL(centre)(v, d, &area);
+	c[0] = (EW_REAL)((double)v->cx + d[0]);
+	c[1] = (EW_REAL)((double)v->cy + d[1]);
+	return found ? EW_OK : EW_ZERO_AREA;
+}
+
 int EW_NAME(centroid)(const EW_REAL *x, const EW_REAL *y, size_t n, EW_REAL c[2])
 {
 	EW_LOCAL(vertices) v = EW_LOCAL(plain)(x, y, 1, n);
-	double d[2], area;
-	int found = EW_LOCAL(centre)(&v, d, &area);
-	c[0] = (EW_REAL)((double)v.cx + d[0]);
-	c[1] = (EW_REAL)((double)v.cy + d[1]);
-	return found ? EW_OK : EW_ZERO_AREA;
+	return EW_LOCAL(centroid_of)(&v, c);
 }
 
 int EW_NAME(central_moments)(int degree, const EW_REAL *x, const EW_REAL *y, size_t n, EW_REAL c[2],

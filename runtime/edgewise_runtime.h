@@ -15,7 +15,9 @@ enum {
 	EW_EDGES = 64,       /* edges of a kind that are gathered at a time; by definition, in float */
 	EW_STAGE = 256,      /* vertices moved or gathered at a time; not part of the definition */
 	EW_TILE = EW_SHORT + 4,      /* room for the columns of rings side by side */
-	EW_SIDES = 3                 /* degrees from 0 that are summed up in registers */
+	EW_SIDES = 3,                /* degrees from 0 that are summed up in registers */
+	EW_ROW = 64,                 /* rings that are summed up so before results are stored */
+	EW_SIDE_SUMS = 6             /* accumulators and results of the last of these degrees */
 };
 
 /* Kinds of edges, in the order in which their sums are added. */
@@ -24,34 +26,37 @@ enum { EW_KIND_LINE, EW_KIND_QUAD, EW_KIND_CONIC, EW_KIND_CUBIC, EW_KINDS };
 
 #define EW_SLACK (1 + 0x1p-48)         /* more than a few roundings of double */
 
-/* Short rings side by side: where each begins, the least and the most vertices. */
-typedef struct {
-	const int32_t *start;
-	size_t shortest, longest;
-} ew_ring_lanes;
-
 /* What a target can do with coordinates by vectors (edgewise_columns.c).
  *
  * move: to[i] = from[i * stride] - origin, stride 1 or 2.
  * clear: to[i] = 0; count is a multiple of the number of virtual lanes.
- * divide: to[i] = a[i] / b[i]; likewise.
+ * widen: to[i] = from[i]; likewise; 0 if one of them is not finite.
+ * divide: to[i] = a[i] / b[i] + c[i]; likewise.
  * gather: tile_x[c * width + l] is x of vertex c of the ring of lane l, and its first one again for
- * c >= lengths[l] (not read if shortest is longest). Columns 0 .. longest + 1 are written, up to
- * EW_TILE may be; vertices from start[l] to 3 places past `longest` may be read. NULL for scalar
- * targets, whose width is 1.
- * side[degree]: the sums of the kernel for the moments to that degree over such rings, whose
- * columns then never leave the registers; NULL where there is none.
- * centroid: the same of degree 1, about the first vertex of each ring. */
+ * c >= length[l]. Columns 0 .. longest + 1 are written, up to EW_TILE may be; vertices from
+ * start[l] to 3 places past `longest` may be read. NULL for scalar targets, whose width is 1.
+ * side[degree]: sum[accumulator * EW_ROW + ring] of the kernel for the moments to that degree, over
+ * groups of `width` rings side by side whose columns never leave the registers; NULL where there is
+ * none. Returns the number of rings done: it ends before a group that is not whole, or for which
+ * it would have to read past the last vertex. `not_finite` is set if a sum is not, for whatever
+ * reason: that of a ring that does not fit is NaN.
+ * centroid: the same of degree 1, about the first vertex of each ring; that is added behind. */
 #define EW_COLUMNS_TYPE(f, real) \
-typedef void ew_ring_side##f(const real *x, const real *y, const ew_ring_lanes *lanes, \
-	const real *lengths, real *sum); \
+typedef struct {                       /* short rings side by side */ \
+	size_t start[EW_LANES_FLOAT], longest; \
+	real length[EW_LANES_FLOAT];   /* 0: no ring, or one that does not fit */ \
+} ew_ring_lanes##f; \
+typedef size_t ew_ring_side##f(const real *x, const real *y, const int32_t *offsets, \
+	size_t rings, size_t vertices, double *sum, int *not_finite); \
 typedef struct { \
 	size_t width; \
 	void (*move)(const real *from, size_t stride, real origin, size_t count, real *to); \
 	void (*clear)(real *to, size_t count); \
-	void (*divide)(const double *a, const double *b, size_t count, double *to); \
-	void (*gather)(const real *x, const real *y, const ew_ring_lanes *lanes, \
-		const real *lengths, real *tile_x, real *tile_y); \
+	int (*widen)(const real *from, size_t count, double *to); \
+	void (*divide)(const double *a, const double *b, const double *c, size_t count, \
+		double *to); \
+	void (*gather)(const real *x, const real *y, const ew_ring_lanes##f *lanes, \
+		real *tile_x, real *tile_y); \
 	ew_ring_side##f *side[EW_SIDES], *centroid; \
 } ew_ring_columns##f;
 EW_COLUMNS_TYPE(, double)
@@ -77,6 +82,10 @@ extern "C" {
 unsigned ew_cpu_target(void);  /* the forced target, or the best one: one bit */
 const ew_ring_columns *ew_ring_by_columns(unsigned target);
 const ew_ring_columnsf *ew_ring_by_columnsf(unsigned target);
+void ew_ring_fit(const double *x, const double *y, const int32_t *offsets, size_t rings,
+	size_t width, ew_ring_lanes *lanes);
+void ew_ring_fitf(const float *x, const float *y, const int32_t *offsets, size_t rings,
+	size_t width, ew_ring_lanesf *lanes);
 
 #ifdef __cplusplus
 }

@@ -324,31 +324,46 @@ static void test_zero_area(const Api *api, const char *target)
 	check_end();
 }
 
-/* Many rings, results that begin anywhere in a cache line. */
+/* More than a row of rings, some not finite, with results that begin anywhere in a cache line. */
 
-static void expect_many(const Api *api, int what, size_t rings, size_t shift)
+static void spoil(const Batch *b)
 {
-	Batch b = batch_new(api, rings, 0, SMALL, 0);
-	const size_t results = rings * outputs(what) * api->size;
+	static const double bad[] = { NAN, INFINITY, -INFINITY };
+	for (size_t ring = 0; ring < b->rings; ring++) {
+		if (ring_size(b, ring) == 0 || random_int(0, 19))
+			continue;
+		const int at = random_int(b->offsets[ring], b->offsets[ring + 1] - 1);
+		put(b->api, random_int(0, 1) ? b->x : b->y, (size_t)at, bad[random_int(0, 2)]);
+	}
+}
+
+static void expect_many(const Batch *b, int what, size_t shift)
+{
+	const size_t results = b->rings * outputs(what) * b->api->size;
 	char *all = allocate(results + 256);
-	char *out = all + 64 - (uintptr_t)all % 64 + shift * api->size;
+	char *out = all + 64 - (uintptr_t)all % 64 + shift * b->api->size;
 	memset(all, CANARY, results + 256);
-	expect(call(api, what, b.x, b.y, b.offsets, rings, out) == EW_OK, "refused");
-	for (size_t i = 0; i < rings && expect_ring(&b, what, i, out); i++)
+	expect(call(b->api, what, b->x, b->y, b->offsets, b->rings, out) == EW_OK, "refused");
+	for (size_t i = 0; i < b->rings && expect_ring(b, what, i, out); i++)
 		;
 	expect(guarded_filled(all, out, CANARY)
 		&& guarded_filled(out + results, all + results + 256, CANARY),
-		"call %d of %zu rings writes besides its results", what, rings);
+		"call %d of %zu rings writes besides its results", what, b->rings);
 	free(all);
-	batch_free(&b);
 }
 
 static void test_many(const Api *api, const char *target)
 {
 	check_begin("many rings, %s, %s", api->name, target);
-	for (int what = FIRST; what <= LAST; what++)
-		for (size_t shift = 0; shift < 64 / api->size; shift += 3)
-			expect_many(api, what, (size_t)random_int(1000, 3000), shift);
+	for (int round = 0; round < 6 * SIZES; round++) {
+		Batch b = batch_new(api, (size_t)random_int(EW_ROW - 1, 10 * EW_ROW), 0,
+			(Sizes)(round % SIZES), random_int(3, 40));
+		if (round % 2)
+			spoil(&b);
+		for (int what = FIRST; what <= LAST; what++)
+			expect_many(&b, what, (size_t)random_int(0, 64 / (int)api->size - 1));
+		batch_free(&b);
+	}
 	check_end();
 }
 

@@ -92,6 +92,8 @@ length of a short ring|edgewise_rings_template.h|edgewise_rings.c|s/if (v->n < E
 closing vertex of a short ring|edgewise_rings_template.h|edgewise_rings.c|s/v.n -= n == EW_SHORT/v.n -= n == EW_SHORT + 1/|rings|explicitly closed
 lost part of two sums|edgewise_trust_template.h|edgewise_rings.c|s/+ (value - part);/- (value - part);/|compensated|compensated area
 avx2: lane of a gathered ring|edgewise_columns.c||/ew_ring_block_avx2(/,/^}/s/start\[2\]/start[3]/|batches|mixed sizes between guard pages, double, avx2
+avx2: a sum that is not finite|edgewise_columns_template.h|edgewise_columns.c|s/return off == 0;/return 1;/|batches|mixed sizes between guard pages, double, avx2
+avx2: a ring that is left out|edgewise_batches_template.h|edgewise_rings.c|s/left_out ? (EW_REAL)NAN : sum/0 ? (EW_REAL)NAN : sum/|batches|mixed sizes between guard pages, double, avx2
 avx2: finish of rings side by side|edgewise_finish_avx2.c||/moments_2_finish_avx2/,/^}/s/, sum4);/, sum3);/|batches|mixed sizes between guard pages, double, avx2
 END
 
