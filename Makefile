@@ -173,13 +173,19 @@ deps-bench:
 # ---- tests ----
 
 RING_TESTS := rings lanes central ring_contract long_rings kernels batches bounded compensated distance closure
-PROGRAMS   := $(addprefix $(B)/tests/,units constants lines polynomials shapes glyphs $(RING_TESTS))
+PROGRAMS   := $(addprefix $(B)/tests/,units constants lines polynomials monomials shapes glyphs $(RING_TESTS))
 TEST_BUILD  = $(CC) -std=gnu11 -Wall -Wextra -ffp-contract=off $(SANITIZE) $(CFLAGS) -Itests
 
 # Expressions of the table in tests/polynomials.c.
 $(B)/polynomials.stamp: $(B)/gen
 	$(B)/gen --max-degree 1 --polynomial 'soft=(1-x)*(1-y)' --polynomial 'saddle=x^2-y^2' \
 		--polynomial 'deep=x^5*y^3/7 - 2.5*x^2*y^4 - 2*x + 1/3' --out $(B)/polynomials
+	@touch $@
+
+# Monomials of the table in tests/monomials.c.
+$(B)/monomials.stamp: $(B)/gen
+	$(B)/gen --monomial x4y2 --monomial x0y3 --monomial x5y1 --edges line,quad,cubic \
+		--targets portable --no-runtime --out $(B)/monomials
 	@touch $@
 
 $(B)/tests/units $(B)/tests/constants: $(B)/tests/%: tests/%.c tests/check.h \
@@ -192,6 +198,10 @@ $(B)/tests/polynomials: tests/polynomials.c tests/reference.c $(B)/polynomials.s
 
 $(B)/tests/distance: tests/distance_reference.c
 
+$(B)/tests/monomials: tests/monomials.c tests/reference.c $(B)/monomials.stamp | $(B)/tests
+	$(TEST_BUILD) -I$(B)/monomials -DMANIFEST='"$(B)/monomials/edgewise_manifest.json"' -o $@ \
+		$(filter %.c,$^) $(B)/monomials/edgewise_line*.c $(LDFLAGS) $(MATH)
+
 $(B)/tests/%: tests/%.c tests/reference.c $(wildcard tests/*.h) library | $(B)/tests
 	$(TEST_BUILD) -I$(B)/emitted -o $@ $(filter %.c,$^) $(LIB) $(LDFLAGS) $(MATH)
 
@@ -202,7 +212,7 @@ test: $(PROGRAMS) $(B)/shapes glyphs-if-freetype
 		'readme: sh tests/readme.sh $(B)' \
 		'golden: sh tests/golden.sh $(B)' 'counts: sh tests/counts.sh $(B)' \
 		'lines: $(B)/tests/lines' $(foreach t,$(RING_TESTS),'$(t): $(B)/tests/$(t)') \
-		'polynomials: $(B)/tests/polynomials' \
+		'polynomials: $(B)/tests/polynomials' 'monomials: $(B)/tests/monomials' \
 		'shapes: $(B)/shapes --exact examples/data/countries.txt | $(B)/tests/shapes' \
 		'glyphs: sh tests/glyphs.sh $(B)' \
 		'command-line: sh tests/cli.sh $(B)/gen' \

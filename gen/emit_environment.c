@@ -43,6 +43,11 @@ static const char *const X86 =
 	"#define EW_ABS_mm256_ps(a) _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a)\n"
 	"#define EW_ABS_mm512_pd(a) _mm512_abs_pd(a)\n"
 	"#define EW_ABS_mm512_ps(a) _mm512_abs_ps(a)\n"
+	/* maskz: some compilers warn about the undefined operand inside the plain intrinsic */
+	"#define EW_SQRT_mm256_pd(a) _mm256_sqrt_pd(a)\n"
+	"#define EW_SQRT_mm256_ps(a) _mm256_sqrt_ps(a)\n"
+	"#define EW_SQRT_mm512_pd(a) _mm512_maskz_sqrt_pd(0xff, a)\n"
+	"#define EW_SQRT_mm512_ps(a) _mm512_maskz_sqrt_ps(0xffff, a)\n"
 	"#define EW_CHOOSE_mm256_pd(a, b, c) _mm256_blendv_pd(c, b, \\\n"
 	"\t_mm256_cmp_pd(a, _mm256_setzero_pd(), _CMP_GT_OQ))\n"
 	"#define EW_CHOOSE_mm256_ps(a, b, c) _mm256_blendv_ps(c, b, \\\n"

@@ -49,11 +49,6 @@ static int has_conics(const Request *request)
 	return request->curves >= 0 && request->edges & EDGE_CONIC;
 }
 
-static int has_paths(const Request *request)
-{
-	return request->curves >= 0 && request->edges == ALL_EDGES;
-}
-
 static int has_distance(const Request *request)
 {
 	return (request->families & FAMILY_DISTANCE) != 0;
@@ -169,12 +164,13 @@ static const Entry kinds[] = {
 	"chord, w = 1 the quadratic Bezier edge. Error: f is good to 2.5 ulp (10 ulp for w < 0, where "
 	"it is a difference), both terms to 4 u more. Swapping the ends negates the result bit for bit.",
 	"REAL ew_conic_area@(" QUAD_POINTS ", REAL w)" },
-	{ has_paths,
+	{ has_curves,
 	"All moments of the region inside a path, degrees as for ew_line_moments. verbs are EW_MOVE (1 "
 	"point), EW_LINE (1), EW_QUAD (2), EW_CONIC (2 and one weight), EW_CUBIC (3), EW_CLOSE (0); "
 	"points are x, y alternating, point_count counts points. Open contours are closed by a line; "
 	"empty ones and those of one point give 0; drawing goes on after EW_CLOSE from where the "
-	"contour began. An unknown verb, one before any EW_MOVE, or points and weights that are not "
+	"contour began. An unknown verb, or one of a kind of edge that was not emitted, one before any "
+	"EW_MOVE, or points and weights that are not "
 	"exactly those that the verbs take: EW_BAD_PATH, out untouched, nothing read past the arrays. "
 	"Error: the bounds of the edges, summed; edges of each kind are added up in lanes as in "
 	"ew_moments. About (0,0): move a path that is far from it.",
@@ -319,7 +315,8 @@ static void add_macros(Text *text, const Request *request)
 				precisions[i].is_float ? "FLOAT" : "DOUBLE");
 	const struct { int wanted; const char *name; } features[] = {
 		{ has_quads(request), "QUADS" }, { has_conics(request), "CONICS" },
-		{ has_cubics(request), "CUBICS" }, { has_paths(request), "PATHS" },
+		{ has_cubics(request), "CUBICS" },
+		{ request->moments >= 0 || request->monomials || request->polynomials, "INTEGRANDS" },
 		{ has_distance(request), "DISTANCE" }, { has_closure(request), "CLOSURE" },
 	};
 	for (int i = 0; i < LENGTH(features); ++i)
@@ -327,7 +324,7 @@ static void add_macros(Text *text, const Request *request)
 			text_add(text, "#define EW_HAS_%s 1\n", features[i].name);
 	text_add(text, "\nenum {\n\tEW_PORTABLE = 1,\n\tEW_FMA = 2,\n\tEW_AVX2 = 4,\n"
 		"\tEW_AVX512 = 8,\n\tEW_NEON = 16,\n\tEW_WASM128 = 32\n};\n");
-	if (has_paths(request))
+	if (has_curves(request))
 		text_add(text, "enum { EW_MOVE, EW_LINE, EW_QUAD, EW_CONIC, EW_CUBIC, EW_CLOSE };\n");
 	text_add(text, "enum {\n\tEW_OK = 0,\n\tEW_BAD_DEGREE,\n\tEW_BAD_PATH,\n\tEW_BAD_OFFSETS,\n"
 		"\tEW_BAD_IMAGE,\n\tEW_BAD_COORDINATE,\n\tEW_ZERO_AREA,\n\tEW_NO_MEMORY,\n"

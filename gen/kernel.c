@@ -43,15 +43,21 @@ static void dump_dag(const Dump *dump, char letter, const char *name, const Dag 
 		text_add(dump->text, "  finish %d = %s\n", j, poly_text(dag->finish[j], " "));
 }
 
-static Program scheduled(const Dump *dump, const char *name, const char *what, const Dag *dag,
-	const Integral *want, int count)
+static Program dumped_schedule(const Dump *dump, const char *name, const char *what, const Dag *dag)
 {
 	Program program = schedule(dag);
-	prove_program(&program, want, count);
 	if (wants(dump, 's')) {
 		text_add(dump->text, "%s: schedule, %s\n", name, what);
 		program_dump(dump->text, &program);
 	}
+	return program;
+}
+
+static Program scheduled(const Dump *dump, const char *name, const char *what, const Dag *dag,
+	const Integral *want, int count)
+{
+	Program program = dumped_schedule(dump, name, what, dag);
+	prove_program(&program, want, count);
 	return program;
 }
 
@@ -61,7 +67,7 @@ static void build_curve_edge(Edge *edge, const Dag *dag, const char *name, const
 	const Integrand *what = edge->what;
 	dump_dag(dump, 'd', name, dag);
 	if (dag->proof == PROOF_QUADRATURE) {
-		edge->program = schedule(dag);
+		edge->program = dumped_schedule(dump, name, "portable", dag);
 		prove_quadrature(&edge->program, what->m, what->n);
 	} else {
 		Poly one = poly_const(rat(1, 1));
@@ -131,8 +137,8 @@ static void build_programs(Ring *ring, int is_float, const Dag *dag, const Integ
 			ring->outputs);
 		return;
 	}
-	ring->portable[is_float] = schedule(dag);
-	ring->fused[is_float] = schedule(fused);
+	ring->portable[is_float] = dumped_schedule(dump, ring->name, "portable", dag);
+	ring->fused[is_float] = dumped_schedule(dump, ring->name, "fma", fused);
 	if (dag->proof == PROOF_QUADRATURE) {
 		prove_quadrature(&ring->portable[is_float], ring->m, 0);
 		prove_quadrature(&ring->fused[is_float], ring->m, 0);

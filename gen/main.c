@@ -259,7 +259,8 @@ static void no_progress(int done, int of)
 
 static void print_text(Text *text)
 {
-	if (fwrite(text->data, 1, text->size, stdout) != text->size || fflush(stdout) != 0)
+	if ((text->size && fwrite(text->data, 1, text->size, stdout) != text->size)
+	    || fflush(stdout) != 0)
 		fatal(EXIT_DIFFERENT, "cannot write to standard output");
 	text_free(text);
 }
@@ -320,6 +321,8 @@ static int emit(const Options *o)
 	}
 	if (o->manifest)
 		add_file(&single, o->manifest, manifest);
+	else if (o->single_header)
+		text_free(&manifest);
 	if (o->depfile)
 		add_file(&single, o->depfile, bundle_depfile(&outputs));
 	return deliver(&files, &single, &how);

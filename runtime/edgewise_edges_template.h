@@ -208,9 +208,7 @@ EW_REAL EW_NAME(conic_area)(EW_REAL x0, EW_REAL y0, EW_REAL x1, EW_REAL y1, EW_R
 	return area;
 }
 #endif
-#endif
 
-#ifdef EW_HAS_PATHS
 /* Do the verbs take exactly these points and weights, and does a contour begin with a move? */
 static int EW_LOCAL(is_path)(const unsigned char *verbs, size_t verb_count, const EW_REAL *points,
 	size_t point_count, const EW_REAL *weights, size_t weight_count)
@@ -219,7 +217,7 @@ static int EW_LOCAL(is_path)(const unsigned char *verbs, size_t verb_count, cons
 	    || (verb_count && verbs[0] != EW_MOVE))
 		return 0;
 	for (size_t i = 0; i < verb_count; ++i) {
-		if (verbs[i] > EW_CLOSE || ew_path_points[verbs[i]] > point_count
+		if (!ew_path_has(verbs[i]) || ew_path_points[verbs[i]] > point_count
 		    || (verbs[i] == EW_CONIC && weight_count == 0))
 			return 0;
 		point_count -= ew_path_points[verbs[i]];
@@ -239,14 +237,17 @@ static void EW_LOCAL(add_path)(EW_LOCAL(edges) *e, const unsigned char *verbs, s
 	const EW_REAL *points, const EW_REAL *weights)
 {
 	EW_REAL start[2] = { 0, 0 }, point[8] = { 0 };    /* of the contour; from where we are */
+	(void)weights;
 	for (size_t i = 0; i < verb_count; ++i) {
 		const int verb = verbs[i], taken = (int)ew_path_points[verb];
 		for (int k = 0; k < 2 * taken; ++k)
 			point[2 + k] = *points++;
 		if (verb == EW_MOVE || verb == EW_CLOSE)
 			EW_LOCAL(add_closing)(e, point, start);
+#ifdef EW_HAS_CONICS
 		else if (verb == EW_CONIC)
 			EW_LOCAL(add_conic)(e, point, *weights++);
+#endif
 		else
 			EW_LOCAL(add_edge)(e, ew_path_kinds[verb], point, taken + 1, 0);
 		if (verb == EW_MOVE) {

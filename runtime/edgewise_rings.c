@@ -54,12 +54,29 @@ static int ew_ring_kind(int kind, int degree)
 }
 #endif
 
-#ifdef EW_HAS_PATHS
+#ifdef EW_MAX_CURVE_DEGREE
 /* By verb: points that it takes, and the kind of its edge. */
 static const size_t ew_path_points[] = { 1, 1, 2, 2, 3, 0 };
 static const int ew_path_kinds[] = {
 	0, EW_KIND_LINE, EW_KIND_QUAD, EW_KIND_CONIC, EW_KIND_CUBIC, 0
 };
+
+static int ew_path_has(int verb)
+{
+#ifndef EW_HAS_QUADS
+	if (verb == EW_QUAD)
+		return 0;
+#endif
+#ifndef EW_HAS_CONICS
+	if (verb == EW_CONIC)
+		return 0;
+#endif
+#ifndef EW_HAS_CUBICS
+	if (verb == EW_CUBIC)
+		return 0;
+#endif
+	return verb <= EW_CLOSE;
+}
 #endif
 
 #ifdef EW_HAS_DISTANCE

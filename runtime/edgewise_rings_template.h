@@ -37,6 +37,7 @@ static EW_RUN *EW_LOCAL(kernel)(int id, unsigned used)
 #undef EW_CASE
 }
 
+#if defined(EW_HAS_INTEGRANDS) || defined(EW_HAS_DISTANCE)
 static EW_REAL EW_LOCAL(vertex_x)(const EW_LOCAL(vertices) *v, size_t i)
 {
 	EW_REAL x = v->x[i * v->stride];
@@ -209,6 +210,7 @@ static void EW_LOCAL(move_to_first)(EW_LOCAL(vertices) *v)
 }
 #endif
 
+#ifdef EW_HAS_INTEGRANDS
 static EW_REAL EW_LOCAL(integrate_one)(int id, const EW_REAL *x, const EW_REAL *y, size_t n)
 {
 	double out[1];
@@ -216,6 +218,7 @@ static EW_REAL EW_LOCAL(integrate_one)(int id, const EW_REAL *x, const EW_REAL *
 	EW_LOCAL(integrate)(id, &v, out);
 	return (EW_REAL)out[0];
 }
+#endif
 
 #define EW_FUNCTION(function, id, edge, k) \
 	EW_REAL function(const EW_REAL *x, const EW_REAL *y, size_t n) \
@@ -379,4 +382,5 @@ int EW_NAME(central_moments)(int degree, const EW_REAL *x, const EW_REAL *y, siz
 		out[j] = out[j] == out[j] ? 0 : out[j];    /* by definition, unless NaN came in */
 	return EW_OK;
 }
+#endif
 #endif

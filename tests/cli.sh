@@ -22,6 +22,7 @@ cp "${1:-build/gen}" "$work/bin/gen" || exit 1
 GEN=$work/bin/gen
 CC=${CC:-cc}
 CXX=${CXX:-c++}
+STRICT='-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror'
 limit=
 has timeout && limit='timeout 20'
 
@@ -99,6 +100,13 @@ build() {
 	(cd alone && $CC "$@" -c ./*.c)
 }
 
+# FOLDER: main.c with it succeeds; objects of FOLDER's copy stay in `alone`.
+run_with() {
+	build "$1"
+	$CC -I alone -o main main.c alone/*.o -lm
+	./main
+}
+
 # HEADER PREFIX: a program that succeeds if the unit square has area 1.
 area_program() {
 	cat <<-END
@@ -126,10 +134,13 @@ valid_json() {
 default_request() {
 	gen
 	grep -q '^#define EW_MAX_DEGREE 4$' generated/edgewise.h
+	grep -q '^#define EW_MAX_CURVE_DEGREE 4$' generated/edgewise.h
 	gen --max-degree 4 --out explicit
-	gen --families moments --out family
 	diff -r generated explicit
-	diff -r generated family
+	gen --families moments,curves,distance,closure --edges line,quad,conic,cubic --out all
+	for file in generated/*.[ch]; do
+		sed 's/ --families .*cubic$//' "all/${file#*/}" | cmp - "$file"
+	done
 }
 check default_request
 
@@ -140,15 +151,14 @@ max_degree() {
 	grep -q '^#define EW_MAX_DEGREE 8$' d8/edgewise.h
 	[ "$(grep -c '^double ew_line_x[0-8]y[0-8](' d8/edgewise.h)" -eq 45 ]
 	[ "$(grep -c '^float ew_line_x[0-8]y[0-8]f(' d8/edgewise.h)" -eq 45 ]
-	build d0
 	area_program edgewise.h ew_ >main.c
-	$CC -I alone -o main main.c alone/*.o -lm
-	./main
+	gen --max-degree 0 --targets portable --out small
+	run_with small
 }
 check max_degree
 
 monomials_only() {
-	gen --monomial x4y2 --monomial x1y0 --out d
+	gen --monomial x4y2 --monomial x1y0 --targets portable,fma --out d
 	build d
 	symbols alone | grep '^ew_line_' >lines
 	printf 'ew_line_x1y0\new_line_x1y0f\new_line_x4y2\new_line_x4y2f\n' | cmp - lines
@@ -158,7 +168,7 @@ monomials_only() {
 check monomials_only
 
 polynomial() {
-	gen --polynomial soft='(1-x)*(1-y)' --out d
+	gen --polynomial soft='(1-x)*(1-y)' --targets portable,fma --out d
 	cat >main.c <<-END
 		#include "edgewise.h"
 		#include <math.h>
@@ -177,9 +187,7 @@ polynomial() {
 				&& fabsf(ew_softf(xf, yf, 4) - 0.25f) < 1e-6f);
 		}
 	END
-	build d
-	$CC -I alone -o main main.c alone/*.o -lm
-	./main
+	run_with d
 }
 check polynomial
 
@@ -192,13 +200,14 @@ polynomial_grammar() {
 check polynomial_grammar
 
 precision() {
-	gen --max-degree 1 --precision double --polynomial p=x --out d
-	gen --max-degree 1 --precision float --polynomial p=x --out f
-	gen --max-degree 1 --precision float,double --polynomial p=x --out both
-	gen --max-degree 1 --polynomial p=x --out default
+	set -- --max-degree 1 --polynomial p=x --targets portable
+	gen "$@" --precision double --out d
+	gen "$@" --precision float --out f
+	gen "$@" --precision float,double --out both
+	gen "$@" --out default
 	diff -r both default
 	for d in d f both; do
-		build $d
+		build $d $STRICT -std=c99
 		symbols alone >$d.symbols
 	done
 	sort -u d.symbols f.symbols | cmp - both.symbols
@@ -219,14 +228,12 @@ targets() {
 	gen --max-degree 1 --targets portable,fma,avx2,avx512,neon --out all
 	gen --max-degree 1 --check --out all
 	find d -name '*fma*' -o -name '*avx*' -o -name '*neon*' | refute grep .
-	build d
-	nm -P alone/*.o | refute grep fma
 	cat >main.c <<-END
 		#include "edgewise.h"
 		int main(void) { return ew_targets() != EW_PORTABLE; }
 	END
-	$CC -I alone -o main main.c alone/*.o -lm
-	./main
+	run_with d
+	nm -P alone/*.o | refute grep fma
 }
 check targets
 
@@ -235,7 +242,8 @@ prefix() {
 	find foo -type f ! -name 'foo*' | refute grep .
 	grep -rnE '(^|[^A-Za-z0-9_])(ew|EW)(_|[^A-Za-z0-9]|$)' foo | refute grep .
 	refute grep -rniE 'edgewise' foo
-	build foo
+	gen --prefix foo --max-degree 2 --polynomial soft=x*y --targets portable --out small
+	build small
 	symbols alone | refute grep -v '^foo_'
 	gen --prefix foo --single-header foo.h
 	refute grep -niE '(^|[^a-z0-9_])ew_|edgewise' foo.h
@@ -244,8 +252,8 @@ check prefix
 
 # SCHEME DEGREE2 X4Y2: the scheme asked for, and what two kernels get.
 scheme_gives() {
-	gen --max-degree 2 --monomial x4y2 --scheme "$1" --out "$1"
-	grep -q "gen --max-degree 2 --monomial x4y2 --scheme $1\$" "$1/edgewise.h"
+	gen --max-degree 2 --families moments --monomial x4y2 --scheme "$1" --out "$1"
+	grep -q " --max-degree 2 --families moments --monomial x4y2 --scheme $1\$" "$1/edgewise.h"
 	sed -n 's/.*"ring": "\(moments_2\|x4y2\)".*"scheme": "\([^"]*\)".*/\1 \2/p' \
 		"$1/edgewise_manifest.json" >got
 	printf 'moments_2 %s\nx4y2 %s\n' "$2" "$3" | diff got -
@@ -258,7 +266,7 @@ scheme() {
 	scheme_gives shared shared even-power
 	scheme_gives recurrence recurrence even-power
 	scheme_gives vertex shared even-power
-	gen --max-degree 2 --monomial x4y2 --out cheapest
+	gen --max-degree 2 --families moments --monomial x4y2 --out cheapest
 	for file in cheapest/edgewise_moments_fma.c cheapest/edgewise_integrands_fma.c; do
 		sed 's/ --scheme vertex$//' "vertex/${file#*/}" | cmp - "$file"
 	done
@@ -282,7 +290,8 @@ area_of_any_scheme() {
 		}
 	END
 	for name in matrix even-power recurrence vertex; do
-		gen --max-degree 1 --scheme $name --out $name
+		gen --max-degree 1 --families moments --targets portable,fma --scheme $name \
+			--out $name
 		$CC -I $name -o main main.c $name/*.c -lm
 		./main || { echo "not with $name"; return 1; }
 	done
@@ -290,8 +299,8 @@ area_of_any_scheme() {
 check area_of_any_scheme
 
 two_prefixes_in_one_program() {
-	gen --prefix foo --max-degree 2 --out foo
-	gen --prefix bar --max-degree 5 --out bar
+	gen --prefix foo --max-degree 2 --families moments --targets portable,avx2 --out foo
+	gen --prefix bar --max-degree 1 --edges quad --targets portable --out bar
 	area_program foo.h foo_ | sed 's/main/foo/' >foo.c
 	area_program bar.h bar_ | sed 's/main/bar/' >bar.c
 	echo 'int foo(void); int bar(void); int main(void) { return foo() || bar(); }' >main.c
@@ -300,10 +309,238 @@ two_prefixes_in_one_program() {
 }
 check two_prefixes_in_one_program
 
+# ---- families and kinds of edges ----
+
+# FAMILIES EDGES PRECISIONS: the rows of prototypes.txt that belong to a request, as C.
+prototypes() {
+	awk -v families=",always,$1," -v edges=",any,$2," -v precisions="$3" '
+		BEGIN { if (edges ~ /quad,conic,cubic/) edges = edges "all," }
+		/^#/ || !index(families, "," $1 ",") || !index(edges, "," $2 ",") { next }
+		{ sub(/^[^ ]* [^ ]* /, "") }
+		!/REAL/ { print; next }
+		precisions ~ /double/ { text = $0; gsub(/REAL/, "double", text); print text }
+		precisions ~ /float/ {
+			gsub(/REAL/, "float")
+			match($0, /ew_[a-z_]*[(]/)
+			end = RSTART + RLENGTH - 1
+			print substr($0, 1, end - 1) "f" substr($0, end)
+		}' "$tests/prototypes.txt"
+}
+
+# names of the functions of the library in C that comes in
+functions() {
+	grep -oE '[^a-z0-9_]ew_[a-z0-9_]+\(' | tr -dc 'a-z0-9_\n' | sort
+}
+
+# HEADER: what it declares
+declared() {
+	printf '#include "%s"\n' "$1" >includes.c
+	$CC -E -P includes.c | functions
+}
+
+# FAMILIES EDGES PRECISIONS DEGREE OPTION...: header and objects have the functions of this request
+# and no other, with the parameters that prototypes.txt says.
+interface() {
+	families=$1 edges=$2 precisions=$3 degree=$4
+	shift 4
+	rm -rf d
+	[ "$degree" -le 0 ] || families="$families,moments>0"
+	gen "$@" --precision "$precisions" --targets portable --quiet --out d
+	prototypes "$families" "$edges" "$precisions" >prototypes
+	functions <prototypes >wanted
+	declared d/edgewise.h | grep -vE '^ew_line_x[0-9]' | diff wanted -
+	[ "$(declared d/edgewise.h | grep -E '^ew_line_x[0-9]' | tr -d f | sort -u | wc -l)" -eq \
+		$((degree < 0 ? 0 : (degree + 1) * (degree + 2) / 2)) ]
+	{
+		echo '#include "edgewise.h"'
+		cat prototypes
+	} >again.c
+	$CC $STRICT -std=c99 -I d -fsyntax-only again.c
+	build d $STRICT -std=c99 -O0
+	symbols alone | sort -u >have
+	sort -u wanted | comm -23 - have | refute grep .
+}
+
+families_have_their_functions() {
+	both=double,float
+	all=moments,curves,distance,closure
+	interface $all line,quad,conic,cubic $both 1 --max-degree 1
+	interface moments line double 2 --families moments --max-degree 2
+	interface moments,curves line,quad,conic,cubic double 0 --families curves --max-degree 0
+	interface moments line double 0 --families curves --edges line --max-degree 0
+	interface distance line $both -1 --families distance
+	interface closure line $both -1 --families closure
+	interface distance,closure line float -1 --families closure,distance
+}
+check families_have_their_functions
+
+edges_have_their_functions() {
+	all=moments,curves,distance,closure
+	interface $all line,quad double 2 --edges quad --max-degree 2
+	interface $all line,quad,cubic float 2 --edges cubic,quad --max-degree 2
+	interface moments,curves line,conic double 1 --families curves --edges conic --max-degree 1
+	interface moments,distance,closure line double 0 --edges line --max-degree 0
+}
+check edges_have_their_functions
+
+# FAMILY: a program that calls one function of it
+family_program() {
+	case $1 in
+	moments)  call='ew_line_area(1, 0, 0, 1) == 0.5' ;;
+	curves)   call='ew_quad_area(1, 0, 1, 1, 0, 1) == 5 / 6.0' ;;
+	distance) call='ew_line_distance(3, 4, 6, 8) == 0' ;;
+	closure)  call='ew_line_closure(1, 2, 3, 4, 0, 0) == -10' ;;
+	esac
+	printf '#include "ew.h"\nint main(void) { return !(%s); }\n' "$call"
+}
+
+# COMPILER...: one file with all there is of a family, strictly, and a program
+family_with() {
+	printf '#define EW_IMPLEMENTATION\n#include "ew.h"\n' >implementation.c
+	"$@" $STRICT -O0 -o main main.c implementation.c -lm
+	./main
+}
+
+# FAMILY DEGREE: as C99 and C++17, by all compilers there are
+family_alone() {
+	gen --families "$1" ${2:+--max-degree "$2"} --single-header ew.h
+	family_program "$1" >main.c
+	for compiler in gcc clang; do
+		! has $compiler || family_with $compiler -std=c99
+	done
+	for compiler in g++ clang++; do
+		! has $compiler || family_with $compiler -x c++ -std=c++17
+	done
+}
+moments_alone() { family_alone moments 1; }
+curves_alone() { family_alone curves 1; }
+distance_alone() { family_alone distance; }
+closure_alone() { family_alone closure; }
+for family in moments curves distance closure; do
+	check ${family}_alone
+done
+
+# One file, and kinds of edges mixed: the unit square with a quadratic right side that bulges by 2/3
+# of 1/2, and a cubic left side whose control points are on it.
+edges_in_a_single_header() {
+	gen --edges quad,cubic --max-degree 2 --single-header ew.h
+	cat >main.c <<-END
+		#include "ew.h"
+		int main(void)
+		{
+			const double sides = ew_line_area(0, 0, 1, 0) + ew_quad_area(1, 0, 1.5, 0.5, 1, 1)
+				+ ew_line_area(1, 1, 0, 1) + ew_cubic_area(0, 1, 0, 0.75, 0, 0.25, 0, 0);
+			const double error = sides - 7.0 / 6;
+			return error < -1e-15 || error > 1e-15;
+		}
+	END
+	# shellcheck disable=SC2086
+	family_with $CC -std=c99
+}
+check edges_in_a_single_header
+
+# DEGREES CURVES OPTION...: what the header promises
+promises() {
+	degrees=$1 curves=$2
+	shift 2
+	rm -rf d
+	gen "$@" --quiet --out d
+	sed -n 's/^#define EW_MAX_\(CURVE_\)*DEGREE //p' d/edgewise.h | tr '\n' ' ' >got
+	[ "$(cat got)" = "$degrees $curves${curves:+ }" ]
+}
+
+degrees_of_curves() {
+	promises 0 0 --max-degree 0
+	promises 1 1 --max-degree 1 --families curves
+	promises 9 8 --max-degree 9 --precision float
+	promises 12 12 --max-degree 12 --edges quad --precision double
+	promises 5 '' --max-degree 5 --families moments
+	promises 5 '' --max-degree 5 --edges line
+	promises 4 4 --families curves
+	refute grep -q DEGREE d/edgewise_kernels.h
+	gen --families distance --out distance
+	refute grep -q EW_MAX_ distance/edgewise.h
+}
+check degrees_of_curves
+
+# Degree 12 of a quadratic whose control points are on a line from (0,0) to (1,1) and, for the rest
+# of the triangle, two line edges: x^12 over the triangle (0,0), (1,1), (0,1) is 1/(13 14).
+degree_12() {
+	gen --max-degree 12 --edges quad --precision double --targets portable --out d
+	cat >main.c <<-END
+		#include "edgewise.h"
+		#include <math.h>
+		int main(void)
+		{
+			static double a[EW_MOMENTS(12)], b[EW_MOMENTS(12)], c[EW_MOMENTS(12)];
+			const int last = EW_INDEX(12, 0);
+			if (ew_quad_moments(12, 0, 0, 0.5, 0.5, 1, 1, a) != EW_OK
+			    || ew_line_moments(12, 1, 1, 0, 1, b) != EW_OK
+			    || ew_line_moments(12, 0, 1, 0, 0, c) != EW_OK
+			    || ew_quad_moments(13, 0, 0, 0.5, 0.5, 1, 1, a) != EW_BAD_DEGREE)
+				return 1;
+			return fabs(a[last] + b[last] + c[last] - 1.0 / 182) > 1e-15;
+		}
+	END
+	run_with d
+}
+check degree_12
+
+# The command in a banner makes the same files again.
+command_of_a_banner() {
+	for request in '--families curves --edges cubic' '--edges quad,line --max-degree 3' \
+		'--families closure,distance --precision float' '--monomial x4y2 --edges cubic' \
+		'--monomial x4y2 --edges line,quad --targets avx2'; do
+		rm -rf d e
+		# shellcheck disable=SC2086
+		gen $request --quiet --out d
+		command=$(sed -n 's/^ \*     gen //p' d/edgewise.h)
+		# shellcheck disable=SC2086
+		gen $command --quiet --out e
+		diff -r d e
+		for word in $request; do
+			case $word in --*) echo "$command" | grep -q -e "$word" ;; esac
+		done
+	done
+}
+check command_of_a_banner
+
+monomial_of_an_edge() {
+	gen --monomial x4y2 --edges cubic --out d
+	[ "$(declared d/edgewise.h | tr '\n' ' ')" = 'ew_cubic_x4y2 ew_cubic_x4y2f ' ]
+	find d -name '*ring*' -o -name '*_fma.c' -o -name '*_moments*' | refute grep .
+	build d $STRICT -std=c99
+	[ "$(symbols alone | tr '\n' ' ')" = 'ew_cubic_x4y2 ew_cubic_x4y2f ' ]
+	gen --monomial x4y2 --edges cubic --single-header ew.h
+	[ "$(declared ew.h | tr '\n' ' ')" = 'ew_cubic_x4y2 ew_cubic_x4y2f ' ]
+	printf '#define EW_IMPLEMENTATION\n#include "ew.h"\n' >implementation.c
+	$CC $STRICT -std=c99 -c implementation.c
+	nm -P -g implementation.o | grep -c ' T ' | grep -qx 2
+}
+check monomial_of_an_edge
+
+prefix_of_curves() {
+	gen --prefix foo --edges quad,conic --max-degree 1 --targets portable --out d
+	cat >main.c <<-END
+		#include "foo.h"
+		int main(void)
+		{
+			double out[FOO_MOMENTS(FOO_MAX_CURVE_DEGREE)];
+			return foo_conic_moments(1, 1, 0, 1, 1, 0, 1, 1, out) != FOO_OK
+				|| foo_quad_area(1, 0, 1, 1, 0, 1) != 5 / 6.0
+				|| foo_line_distance(3, 4, 6, 8) != 0;
+		}
+	END
+	run_with d
+	gen --prefix foo --monomial x2y1 --edges quad --out m
+	grep -rniE '(^|[^a-z0-9_])ew_|edgewise' m | refute grep .
+}
+check prefix_of_curves
+
 # ---- where to ----
 
 self_contained_folder() {
-	gen --max-degree 3 --out d
+	gen --max-degree 0 --families moments --out d
 	build d
 	area_program edgewise.h ew_ >alone/main.c
 	(cd alone && $CC main.c ./*.o -lm -o main && ./main)
@@ -311,9 +548,9 @@ self_contained_folder() {
 check self_contained_folder
 
 no_runtime() {
-	gen --max-degree 1 --out full
-	gen --max-degree 1 --no-runtime --out kernels
-	build kernels
+	gen --max-degree 1 --edges quad --targets portable,fma --out full
+	gen --max-degree 1 --edges quad --targets portable,fma --no-runtime --out kernels
+	build kernels -O0
 	rm kernels/edgewise_manifest.json
 	for file in kernels/*; do
 		cmp "$file" "full/${file#*/}"
@@ -325,7 +562,7 @@ check no_runtime
 
 # COMPILER...: two translation units include the header, one of them implements it.
 single_header_with() {
-	gen --max-degree 3 --polynomial soft='(1-x)*(1-y)' --single-header ew.h
+	gen --max-degree 1 --polynomial soft='(1-x)*(1-y)' --single-header ew.h
 	[ "$(ls)" = ew.h ]
 	printf '#define EW_IMPLEMENTATION\n#include "ew.h"\n' >implementation.c
 	area_program ew.h ew_ >main.c
@@ -471,7 +708,8 @@ check dumps
 
 list_help_version() {
 	unchanged . gen --list >../list
-	for word in moments portable fma double float matrix recurrence; do
+	for word in moments curves distance closure line quad conic cubic portable fma double \
+		float matrix recurrence; do
 		grep -qw $word ../list
 	done
 	gen --version | grep -q '^gen [0-9][0-9]*\.[0-9][0-9]*\.[0-9][0-9]*$'

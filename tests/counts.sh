@@ -69,7 +69,7 @@ function count_scalar(text) {
 
 function count_vector(text) {
 	absolute += gsub(/EW_ABS_mm|vabsq_f/, "(", text)
-	divide += gsub(/_(div|sqrt)_p|v(div|sqrt)q_/, "(", text)
+	divide += gsub(/_div_p|EW_SQRT_mm|v(div|sqrt)q_/, "(", text)
 	add += gsub(/EW_(MAX|CHOOSE|EXPONENT|FRACTION)_|_max_p/, "(", text)
 	fma += gsub(/_fn?m(add|sub)_p|vfm[as]q_f/, "(", text)
 	mul += gsub(/_mul_p|vmulq_/, "(", text)

@@ -31,9 +31,23 @@ prints() {
 	check "$name"
 }
 
+# sections NAME PATTERN OPTION...: those parts of a dump whose titles match
+sections() {
+	name=$1 pattern=$2
+	shift 2
+	"$build/gen" "$@" 2>&1 | awk -v pattern="$pattern" '
+		/^[^ ]/ { shown = $0 ~ pattern }
+		shown' >"$work/$name"
+	check "$name"
+}
+
 [ "${2:-}" != accept ] || { accept=yes; mkdir -p "$golden"; }
 prints x2y1.dump -d pdfs --monomial x2y1
-prints degree2.dump -d pdfs --max-degree 2
+prints degree2.dump -d pdfs --max-degree 2 --families moments
+sections quad1.dump '^quad_1:' -d pdfs --max-degree 1 --families curves --edges quad
+sections cubic_x1y1.dump '^cubic_x1y1:' -d d --monomial x1y1 --edges cubic
+sections distance.dump '^radius_1:' -d f --families distance
+sections closure.dump '^closure:' -d pdfs --families closure
 for format in text latex json c; do
 	prints x4y2.$format --show x4y2 --format $format
 done

@@ -160,8 +160,8 @@ static size_t make_path(size_t n, size_t *verb_count, size_t *weight_count)
 	size_t point = 0;
 	*verb_count = *weight_count = 0;
 	for (size_t i = 0; i < VERBS; i++) {
-		const unsigned char verb = i % 23 == 0 ? EW_MOVE
-			: i % 23 == 22 ? EW_CLOSE : (unsigned char)(EW_LINE + i * 5 % 7 % 4);
+		const unsigned char verb = (unsigned char)(i % 23 == 0 ? (size_t)EW_MOVE
+			: i % 23 == 22 ? (size_t)EW_CLOSE : (size_t)EW_LINE + i * 5 % 7 % 4);
 		if (point + taken[verb] > n)
 			break;
 		if (verb == EW_CONIC) {

@@ -1,5 +1,5 @@
 #!/bin/sh
-# msvc.sh [BUILD] - the emitted folder as compilers in the manner of MSVC take it: clang for
+# msvc.sh [BUILD] - an emitted folder as compilers in the manner of MSVC take it: clang for
 # Windows, to objects, without a Windows SDK.
 #
 # `clang-cl` is clang as it is there: no __GNUC__, and an <immintrin.h> that leaves out what no
@@ -8,11 +8,12 @@
 # then, and nothing of our own lines may be in GNU's spelling once the preprocessor is through.
 # The little of the C library that the folder needs is declared below, as the SDK declares it.
 # Dispatch also runs that way, on simulated CPUs (tests/dispatch.c). What MSVC itself makes of
-# all this is not shown here.
+# all this is not shown here. Degree 2 has every scheme that higher degrees have.
 set -u
 build=${1:-build}
 . "$(dirname "$0")/verdict.sh"
-emitted=$(cd "$build/emitted" && pwd) || exit 1
+emitted=$work/emitted
+"$build/gen" --quiet --max-degree 2 --out "$emitted" || exit 1
 
 CLANG="clang -ffreestanding -isystem $work/include -I$emitted -O0 -Wall -Wextra -Wpedantic"
 CLANG="$CLANG -Wconversion -Wshadow -Wundef -Wdouble-promotion -Wcast-qual -Werror"

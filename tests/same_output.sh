@@ -70,7 +70,7 @@ degree() {
 	elif [ "$most" -gt 0 ] && [ "$3" -gt "$most" ]; then
 		verdict "$1" "$3 kB of memory, allowed $most"
 	else
-		verdict "$1: $2 s, $3 kB"
+		verdict "$1: $2 s, $3 kB of memory, $(du -sm "$work/degree" | cut -f 1) MB written"
 	fi
 	rm -rf "$work/degree"
 }
