@@ -172,8 +172,11 @@ deps-bench:
 
 # ---- tests ----
 
-RING_TESTS := rings lanes central ring_contract long_rings kernels batches bounded compensated distance closure
-PROGRAMS   := $(addprefix $(B)/tests/,units constants lines polynomials monomials shapes glyphs $(RING_TESTS))
+RING_TESTS  := rings lanes central ring_contract long_rings kernels batches bounded compensated \
+               distance closure
+CURVE_TESTS := curves conics paths
+PROGRAMS    := $(addprefix $(B)/tests/,units constants lines polynomials monomials shapes glyphs \
+               $(RING_TESTS) $(CURVE_TESTS))
 TEST_BUILD  = $(CC) -std=gnu11 -Wall -Wextra -ffp-contract=off $(SANITIZE) $(CFLAGS) -Itests
 
 # Expressions of the table in tests/polynomials.c.
@@ -198,6 +201,8 @@ $(B)/tests/polynomials: tests/polynomials.c tests/reference.c $(B)/polynomials.s
 
 $(B)/tests/distance: tests/distance_reference.c
 
+$(CURVE_TESTS:%=$(B)/tests/%): tests/curve_reference.c
+
 $(B)/tests/monomials: tests/monomials.c tests/reference.c $(B)/monomials.stamp | $(B)/tests
 	$(TEST_BUILD) -I$(B)/monomials -DMANIFEST='"$(B)/monomials/edgewise_manifest.json"' -o $@ \
 		$(filter %.c,$^) $(B)/monomials/edgewise_line*.c $(LDFLAGS) $(MATH)
@@ -211,7 +216,9 @@ test: $(PROGRAMS) $(B)/shapes glyphs-if-freetype
 		'units: $(B)/tests/units' 'constants: $(B)/tests/constants' \
 		'readme: sh tests/readme.sh $(B)' \
 		'golden: sh tests/golden.sh $(B)' 'counts: sh tests/counts.sh $(B)' \
-		'lines: $(B)/tests/lines' $(foreach t,$(RING_TESTS),'$(t): $(B)/tests/$(t)') \
+		'lines: $(B)/tests/lines' \
+		$(foreach t,$(RING_TESTS) $(CURVE_TESTS),'$(t): $(B)/tests/$(t)') \
+		'fuzz: sh tests/fuzz.sh $(B)' \
 		'polynomials: $(B)/tests/polynomials' 'monomials: $(B)/tests/monomials' \
 		'shapes: $(B)/shapes --exact examples/data/countries.txt | $(B)/tests/shapes' \
 		'glyphs: sh tests/glyphs.sh $(B)' \
@@ -237,7 +244,7 @@ accept: $(B)/gen
 # gmp and mpfr for the reference; the other compilers only widen the compile matrix; the cross
 # compilers and qemu are for test-cross. (gcc-multilib would remove the cross compilers.) FreeType,
 # fonts and fontTools are for examples/glyphs; with munkres fontTools does without SciPy.
-PACKAGES := gcc g++ clang tcc make binutils libc6-dev libgmp-dev libmpfr-dev \
+PACKAGES := gcc g++ clang libclang-rt-14-dev tcc make binutils libc6-dev libgmp-dev libmpfr-dev \
             gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-i686-linux-gnu \
             libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user \
             libfreetype-dev pkg-config fonts-dejavu-core fonts-gfs-didot python3-fonttools \

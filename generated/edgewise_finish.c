@@ -623,6 +623,327 @@ void ew_ring_compensated_finish(const double *sum, double *out, size_t stride)
 	out[0 * stride] = 0.5 * t0;
 }
 
+/* area of a line edge */
+void ew_ring_line_0_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+}
+
+/* all moments of x^m y^n, m + n <= 0, of a quad edge */
+void ew_ring_quad_0_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[0 * stride];
+}
+
+/* all moments of x^m y^n, m + n <= 1, of a quad edge */
+void ew_ring_quad_1_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0x1.1111111111111p-4 /* 1/15 */ * sum[0 * stride];
+	out[1 * stride] = 0x1.6c16c16c16c17p-5 /* 2/45 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.6c16c16c16c17p-5 /* 2/45 */ * sum[2 * stride];
+}
+
+/* all moments of x^m y^n, m + n <= 2, of a quad edge */
+void ew_ring_quad_2_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-2 /* 1/3 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-2 /* 1/3 */ * sum[2 * stride];
+	out[3 * stride] = 0.25 * sum[3 * stride];
+	out[4 * stride] = 0.25 * sum[4 * stride];
+	out[5 * stride] = 0.25 * sum[5 * stride];
+}
+
+/* all moments of x^m y^n, m + n <= 4, of a quad edge */
+void ew_ring_quad_4_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-2 /* 1/3 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-2 /* 1/3 */ * sum[2 * stride];
+	out[3 * stride] = 0.25 * sum[3 * stride];
+	out[4 * stride] = 0.25 * sum[4 * stride];
+	out[5 * stride] = 0.25 * sum[5 * stride];
+	out[6 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[6 * stride];
+	out[7 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[7 * stride];
+	out[8 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[8 * stride];
+	out[9 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[9 * stride];
+	out[10 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[10 * stride];
+	out[11 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[11 * stride];
+	out[12 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[12 * stride];
+	out[13 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[13 * stride];
+	out[14 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[14 * stride];
+}
+
+/* all moments of x^m y^n, m + n <= 8, of a quad edge */
+void ew_ring_quad_8_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-2 /* 1/3 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-2 /* 1/3 */ * sum[2 * stride];
+	out[3 * stride] = 0.25 * sum[3 * stride];
+	out[4 * stride] = 0.25 * sum[4 * stride];
+	out[5 * stride] = 0.25 * sum[5 * stride];
+	out[6 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[6 * stride];
+	out[7 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[7 * stride];
+	out[8 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[8 * stride];
+	out[9 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[9 * stride];
+	out[10 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[10 * stride];
+	out[11 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[11 * stride];
+	out[12 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[12 * stride];
+	out[13 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[13 * stride];
+	out[14 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[14 * stride];
+	out[15 * stride] = 0x1.2492492492492p-3 /* 1/7 */ * sum[15 * stride];
+	out[16 * stride] = 0x1.2492492492492p-3 /* 1/7 */ * sum[16 * stride];
+	out[17 * stride] = 0x1.2492492492492p-3 /* 1/7 */ * sum[17 * stride];
+	out[18 * stride] = 0x1.2492492492492p-3 /* 1/7 */ * sum[18 * stride];
+	out[19 * stride] = 0x1.2492492492492p-3 /* 1/7 */ * sum[19 * stride];
+	out[20 * stride] = 0x1.2492492492492p-3 /* 1/7 */ * sum[20 * stride];
+	out[21 * stride] = 0.125 * sum[21 * stride];
+	out[22 * stride] = 0.125 * sum[22 * stride];
+	out[23 * stride] = 0.125 * sum[23 * stride];
+	out[24 * stride] = 0.125 * sum[24 * stride];
+	out[25 * stride] = 0.125 * sum[25 * stride];
+	out[26 * stride] = 0.125 * sum[26 * stride];
+	out[27 * stride] = 0.125 * sum[27 * stride];
+	out[28 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[28 * stride];
+	out[29 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[29 * stride];
+	out[30 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[30 * stride];
+	out[31 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[31 * stride];
+	out[32 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[32 * stride];
+	out[33 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[33 * stride];
+	out[34 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[34 * stride];
+	out[35 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[35 * stride];
+	out[36 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[36 * stride];
+	out[37 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[37 * stride];
+	out[38 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[38 * stride];
+	out[39 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[39 * stride];
+	out[40 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[40 * stride];
+	out[41 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[41 * stride];
+	out[42 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[42 * stride];
+	out[43 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[43 * stride];
+	out[44 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[44 * stride];
+}
+
+/* all moments of x^m y^n, m + n <= 0, of the cap of a conic edge */
+void ew_ring_conic_0_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = sum[0 * stride];
+}
+
+/* all moments of x^m y^n, m + n <= 1, of the cap of a conic edge */
+void ew_ring_conic_1_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = sum[0 * stride];
+	out[1 * stride] = sum[1 * stride];
+	out[2 * stride] = sum[2 * stride];
+}
+
+/* all moments of x^m y^n, m + n <= 2, of the cap of a conic edge */
+void ew_ring_conic_2_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = sum[0 * stride];
+	out[1 * stride] = sum[1 * stride];
+	out[2 * stride] = sum[2 * stride];
+	out[3 * stride] = sum[3 * stride];
+	out[4 * stride] = sum[4 * stride];
+	out[5 * stride] = sum[5 * stride];
+}
+
+/* all moments of x^m y^n, m + n <= 4, of the cap of a conic edge */
+void ew_ring_conic_4_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = sum[0 * stride];
+	out[1 * stride] = sum[1 * stride];
+	out[2 * stride] = sum[2 * stride];
+	out[3 * stride] = sum[3 * stride];
+	out[4 * stride] = sum[4 * stride];
+	out[5 * stride] = sum[5 * stride];
+	out[6 * stride] = sum[6 * stride];
+	out[7 * stride] = sum[7 * stride];
+	out[8 * stride] = sum[8 * stride];
+	out[9 * stride] = sum[9 * stride];
+	out[10 * stride] = sum[10 * stride];
+	out[11 * stride] = sum[11 * stride];
+	out[12 * stride] = sum[12 * stride];
+	out[13 * stride] = sum[13 * stride];
+	out[14 * stride] = sum[14 * stride];
+}
+
+/* all moments of x^m y^n, m + n <= 8, of the cap of a conic edge */
+void ew_ring_conic_8_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = sum[0 * stride];
+	out[1 * stride] = sum[1 * stride];
+	out[2 * stride] = sum[2 * stride];
+	out[3 * stride] = sum[3 * stride];
+	out[4 * stride] = sum[4 * stride];
+	out[5 * stride] = sum[5 * stride];
+	out[6 * stride] = sum[6 * stride];
+	out[7 * stride] = sum[7 * stride];
+	out[8 * stride] = sum[8 * stride];
+	out[9 * stride] = sum[9 * stride];
+	out[10 * stride] = sum[10 * stride];
+	out[11 * stride] = sum[11 * stride];
+	out[12 * stride] = sum[12 * stride];
+	out[13 * stride] = sum[13 * stride];
+	out[14 * stride] = sum[14 * stride];
+	out[15 * stride] = sum[15 * stride];
+	out[16 * stride] = sum[16 * stride];
+	out[17 * stride] = sum[17 * stride];
+	out[18 * stride] = sum[18 * stride];
+	out[19 * stride] = sum[19 * stride];
+	out[20 * stride] = sum[20 * stride];
+	out[21 * stride] = sum[21 * stride];
+	out[22 * stride] = sum[22 * stride];
+	out[23 * stride] = sum[23 * stride];
+	out[24 * stride] = sum[24 * stride];
+	out[25 * stride] = sum[25 * stride];
+	out[26 * stride] = sum[26 * stride];
+	out[27 * stride] = sum[27 * stride];
+	out[28 * stride] = sum[28 * stride];
+	out[29 * stride] = sum[29 * stride];
+	out[30 * stride] = sum[30 * stride];
+	out[31 * stride] = sum[31 * stride];
+	out[32 * stride] = sum[32 * stride];
+	out[33 * stride] = sum[33 * stride];
+	out[34 * stride] = sum[34 * stride];
+	out[35 * stride] = sum[35 * stride];
+	out[36 * stride] = sum[36 * stride];
+	out[37 * stride] = sum[37 * stride];
+	out[38 * stride] = sum[38 * stride];
+	out[39 * stride] = sum[39 * stride];
+	out[40 * stride] = sum[40 * stride];
+	out[41 * stride] = sum[41 * stride];
+	out[42 * stride] = sum[42 * stride];
+	out[43 * stride] = sum[43 * stride];
+	out[44 * stride] = sum[44 * stride];
+}
+
+/* all moments of x^m y^n, m + n <= 0, of a cubic edge */
+void ew_ring_cubic_0_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0x1.999999999999ap-5 /* 1/20 */ * sum[0 * stride];
+}
+
+/* all moments of x^m y^n, m + n <= 1, of a cubic edge */
+void ew_ring_cubic_1_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0x1.1111111111111p-4 /* 1/15 */ * sum[0 * stride];
+	out[1 * stride] = 0x1.a01a01a01a01ap-8 /* 2/315 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.a01a01a01a01ap-8 /* 2/315 */ * sum[2 * stride];
+}
+
+/* all moments of x^m y^n, m + n <= 2, of a cubic edge */
+void ew_ring_cubic_2_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-2 /* 1/3 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-2 /* 1/3 */ * sum[2 * stride];
+	out[3 * stride] = 0.25 * sum[3 * stride];
+	out[4 * stride] = 0.25 * sum[4 * stride];
+	out[5 * stride] = 0.25 * sum[5 * stride];
+}
+
+/* all moments of x^m y^n, m + n <= 4, of a cubic edge */
+void ew_ring_cubic_4_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-2 /* 1/3 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-2 /* 1/3 */ * sum[2 * stride];
+	out[3 * stride] = 0.25 * sum[3 * stride];
+	out[4 * stride] = 0.25 * sum[4 * stride];
+	out[5 * stride] = 0.25 * sum[5 * stride];
+	out[6 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[6 * stride];
+	out[7 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[7 * stride];
+	out[8 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[8 * stride];
+	out[9 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[9 * stride];
+	out[10 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[10 * stride];
+	out[11 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[11 * stride];
+	out[12 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[12 * stride];
+	out[13 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[13 * stride];
+	out[14 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[14 * stride];
+}
+
+/* all moments of x^m y^n, m + n <= 8, of a cubic edge */
+void ew_ring_cubic_8_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+	out[1 * stride] = 0x1.5555555555555p-2 /* 1/3 */ * sum[1 * stride];
+	out[2 * stride] = 0x1.5555555555555p-2 /* 1/3 */ * sum[2 * stride];
+	out[3 * stride] = 0.25 * sum[3 * stride];
+	out[4 * stride] = 0.25 * sum[4 * stride];
+	out[5 * stride] = 0.25 * sum[5 * stride];
+	out[6 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[6 * stride];
+	out[7 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[7 * stride];
+	out[8 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[8 * stride];
+	out[9 * stride] = 0x1.999999999999ap-3 /* 1/5 */ * sum[9 * stride];
+	out[10 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[10 * stride];
+	out[11 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[11 * stride];
+	out[12 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[12 * stride];
+	out[13 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[13 * stride];
+	out[14 * stride] = 0x1.5555555555555p-3 /* 1/6 */ * sum[14 * stride];
+	out[15 * stride] = 0x1.2492492492492p-3 /* 1/7 */ * sum[15 * stride];
+	out[16 * stride] = 0x1.2492492492492p-3 /* 1/7 */ * sum[16 * stride];
+	out[17 * stride] = 0x1.2492492492492p-3 /* 1/7 */ * sum[17 * stride];
+	out[18 * stride] = 0x1.2492492492492p-3 /* 1/7 */ * sum[18 * stride];
+	out[19 * stride] = 0x1.2492492492492p-3 /* 1/7 */ * sum[19 * stride];
+	out[20 * stride] = 0x1.2492492492492p-3 /* 1/7 */ * sum[20 * stride];
+	out[21 * stride] = 0.125 * sum[21 * stride];
+	out[22 * stride] = 0.125 * sum[22 * stride];
+	out[23 * stride] = 0.125 * sum[23 * stride];
+	out[24 * stride] = 0.125 * sum[24 * stride];
+	out[25 * stride] = 0.125 * sum[25 * stride];
+	out[26 * stride] = 0.125 * sum[26 * stride];
+	out[27 * stride] = 0.125 * sum[27 * stride];
+	out[28 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[28 * stride];
+	out[29 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[29 * stride];
+	out[30 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[30 * stride];
+	out[31 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[31 * stride];
+	out[32 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[32 * stride];
+	out[33 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[33 * stride];
+	out[34 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[34 * stride];
+	out[35 * stride] = 0x1.c71c71c71c71cp-4 /* 1/9 */ * sum[35 * stride];
+	out[36 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[36 * stride];
+	out[37 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[37 * stride];
+	out[38 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[38 * stride];
+	out[39 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[39 * stride];
+	out[40 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[40 * stride];
+	out[41 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[41 * stride];
+	out[42 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[42 * stride];
+	out[43 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[43 * stride];
+	out[44 * stride] = 0x1.999999999999ap-4 /* 1/10 */ * sum[44 * stride];
+}
+
+/* r^-1 over the triangles of the edges and the origin */
+void ew_ring_radius_inverse_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 2.0 * sum[0 * stride];
+}
+
+/* r^1 over the triangles of the edges and the origin */
+void ew_ring_radius_1_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0x1.5555555555555p-4 /* 1/12 */ * sum[0 * stride];
+}
+
+/* r^3 over the triangles of the edges and the origin */
+void ew_ring_radius_3_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0x1.999999999999ap-6 /* 1/40 */ * sum[0 * stride];
+}
+
+/* r^5 over the triangles of the edges and the origin */
+void ew_ring_radius_5_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0x1.8618618618618p-7 /* 1/84 */ * sum[0 * stride];
+}
+
+/* x0 y0 - x1 y1 */
+void ew_ring_closure_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = sum[0 * stride];
+}
+
 /* area */
 void ew_ring_x0y0_finish(const double *sum, double *out, size_t stride)
 {

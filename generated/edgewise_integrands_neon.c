@@ -45,7 +45,7 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y0_neon(
 		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
-				double pad[4][2];
+				double pad[6][2];
 				int at = 0;
 				const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 2);
 				const float64x2_t y0 = vld1q_f64(at_y0);
@@ -59,7 +59,7 @@ EW_ATTRIBUTE_NEON void ew_ring_x0y0_neon(
 			}
 			{
 				const size_t rest = count - i > step ? count - i - step : 0;
-				double pad[4][2];
+				double pad[6][2];
 				int at = 0;
 				const double *at_y0 = ew_ring_pad(pad[at++], y + i + step, rest, 2);
 				const float64x2_t y0 = vld1q_f64(at_y0);

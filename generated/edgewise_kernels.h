@@ -10,6 +10,8 @@
 
 #include <stddef.h>
 #include <float.h>
+#include <stdint.h>
+#include <string.h>
 
 #ifndef EW_ALLOW_FAST_MATH
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST)
@@ -71,10 +73,6 @@
 #include <fmaintrin.h>
 #include <avx512fintrin.h>
 #endif
-#define EW_ABS_mm256_pd(a) _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)
-#define EW_ABS_mm256_ps(a) _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a)
-#define EW_ABS_mm512_pd(a) _mm512_abs_pd(a)
-#define EW_ABS_mm512_ps(a) _mm512_abs_ps(a)
 #if defined(__aarch64__) && !defined(__TINYC__)
 #define EW_ARM 1
 #define EW_ATTRIBUTE_NEON
@@ -90,6 +88,118 @@
 #define EW_BUILD_AVX2 EW_X86
 #define EW_BUILD_AVX512 EW_X86
 #define EW_BUILD_NEON EW_ARM
+
+/* Operations that are more than one instruction; see ew_ring_choose, ew_ring_exponent and ew_ring_fraction. */
+#define EW_ABS_mm256_pd(a) _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)
+#define EW_ABS_mm256_ps(a) _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a)
+#define EW_ABS_mm512_pd(a) _mm512_abs_pd(a)
+#define EW_ABS_mm512_ps(a) _mm512_abs_ps(a)
+#define EW_SQRT_mm256_pd(a) _mm256_sqrt_pd(a)
+#define EW_SQRT_mm256_ps(a) _mm256_sqrt_ps(a)
+#define EW_SQRT_mm512_pd(a) _mm512_maskz_sqrt_pd(0xff, a)
+#define EW_SQRT_mm512_ps(a) _mm512_maskz_sqrt_ps(0xffff, a)
+#define EW_CHOOSE_mm256_pd(a, b, c) _mm256_blendv_pd(c, b, \
+	_mm256_cmp_pd(a, _mm256_setzero_pd(), _CMP_GT_OQ))
+#define EW_CHOOSE_mm256_ps(a, b, c) _mm256_blendv_ps(c, b, \
+	_mm256_cmp_ps(a, _mm256_setzero_ps(), _CMP_GT_OQ))
+#define EW_CHOOSE_mm512_pd(a, b, c) _mm512_mask_blend_pd( \
+	_mm512_cmp_pd_mask(a, _mm512_setzero_pd(), _CMP_GT_OQ), c, b)
+#define EW_CHOOSE_mm512_ps(a, b, c) _mm512_mask_blend_ps( \
+	_mm512_cmp_ps_mask(a, _mm512_setzero_ps(), _CMP_GT_OQ), c, b)
+#define EW_BITS_mm256_pd(a) _mm256_sub_epi64(_mm256_castpd_si256(a), \
+	_mm256_set1_epi64x(0x3fe6a09e667f3bcd))
+#define EW_BITS_mm256_ps(a) _mm256_sub_epi32(_mm256_castps_si256(a), \
+	_mm256_set1_epi32(0x3f3504f3))
+#define EW_BITS_mm512_pd(a) _mm512_sub_epi64(_mm512_castpd_si512(a), \
+	_mm512_set1_epi64(0x3fe6a09e667f3bcd))
+#define EW_BITS_mm512_ps(a) _mm512_sub_epi32(_mm512_castps_si512(a), \
+	_mm512_set1_epi32(0x3f3504f3))
+#define EW_EXPONENT_mm256_pd(a) _mm256_sub_pd(_mm256_castsi256_pd(_mm256_or_si256( \
+	_mm256_srli_epi64(EW_BITS_mm256_pd(a), 52), _mm256_castpd_si256( \
+	_mm256_set1_pd(0x1p52)))), _mm256_set1_pd(0x1p52))
+#define EW_EXPONENT_mm256_ps(a) \
+	_mm256_cvtepi32_ps(_mm256_srli_epi32(EW_BITS_mm256_ps(a), 23))
+#define EW_EXPONENT_mm512_pd(a) _mm512_sub_pd(_mm512_castsi512_pd(_mm512_or_si512( \
+	_mm512_srli_epi64(EW_BITS_mm512_pd(a), 52), _mm512_castpd_si512( \
+	_mm512_set1_pd(0x1p52)))), _mm512_set1_pd(0x1p52))
+#define EW_EXPONENT_mm512_ps(a) \
+	_mm512_cvtepi32_ps(_mm512_srli_epi32(EW_BITS_mm512_ps(a), 23))
+#define EW_FRACTION_mm256_pd(a) _mm256_castsi256_pd(_mm256_sub_epi64( \
+	_mm256_castpd_si256(a), \
+	_mm256_slli_epi64(_mm256_srli_epi64(EW_BITS_mm256_pd(a), 52), 52)))
+#define EW_FRACTION_mm256_ps(a) _mm256_castsi256_ps(_mm256_sub_epi32( \
+	_mm256_castps_si256(a), \
+	_mm256_slli_epi32(_mm256_srli_epi32(EW_BITS_mm256_ps(a), 23), 23)))
+#define EW_FRACTION_mm512_pd(a) _mm512_castsi512_pd(_mm512_sub_epi64( \
+	_mm512_castpd_si512(a), \
+	_mm512_slli_epi64(_mm512_srli_epi64(EW_BITS_mm512_pd(a), 52), 52)))
+#define EW_FRACTION_mm512_ps(a) _mm512_castsi512_ps(_mm512_sub_epi32( \
+	_mm512_castps_si512(a), \
+	_mm512_slli_epi32(_mm512_srli_epi32(EW_BITS_mm512_ps(a), 23), 23)))
+#define EW_MAX_f64(a, b) vbslq_f64(vcgtq_f64(a, b), a, b)
+#define EW_MAX_f32(a, b) vbslq_f32(vcgtq_f32(a, b), a, b)
+#define EW_CHOOSE_f64(a, b, c) vbslq_f64(vcgtzq_f64(a), b, c)
+#define EW_CHOOSE_f32(a, b, c) vbslq_f32(vcgtzq_f32(a), b, c)
+#define EW_BITS_f64(a) \
+	vsubq_u64(vreinterpretq_u64_f64(a), vdupq_n_u64(0x3fe6a09e667f3bcd))
+#define EW_BITS_f32(a) vsubq_u32(vreinterpretq_u32_f32(a), vdupq_n_u32(0x3f3504f3))
+#define EW_EXPONENT_f64(a) vcvtq_f64_u64(vshrq_n_u64(EW_BITS_f64(a), 52))
+#define EW_EXPONENT_f32(a) vcvtq_f32_u32(vshrq_n_u32(EW_BITS_f32(a), 23))
+#define EW_FRACTION_f64(a) vreinterpretq_f64_u64(vsubq_u64(vreinterpretq_u64_f64(a), \
+	vshlq_n_u64(vshrq_n_u64(EW_BITS_f64(a), 52), 52)))
+#define EW_FRACTION_f32(a) vreinterpretq_f32_u32(vsubq_u32(vreinterpretq_u32_f32(a), \
+	vshlq_n_u32(vshrq_n_u32(EW_BITS_f32(a), 23), 23)))
+
+/* a > b ? a : b; a > 0 ? b : c; for a >= 1 the integer k with a 2^-k in [sqrt 1/2, sqrt 2),
+ * and that number. */
+static inline double ew_ring_max(double a, double b)
+{
+	return a > b ? a : b;
+}
+static inline double ew_ring_choose(double a, double b, double c)
+{
+	return a > 0 ? b : c;
+}
+static inline uint64_t ew_ring_bits(double a)
+{
+	uint64_t bits;
+	memcpy(&bits, &a, sizeof bits);
+	return bits - 0x3fe6a09e667f3bcd;
+}
+static inline double ew_ring_exponent(double a)
+{
+	return EW_CAST(double, EW_CAST(int64_t, ew_ring_bits(a) >> 52));
+}
+static inline double ew_ring_fraction(double a)
+{
+	const uint64_t above = ew_ring_bits(a), bits = above - (above >> 52 << 52) + 0x3fe6a09e667f3bcd;
+	memcpy(&a, &bits, sizeof a);
+	return a;
+}
+static inline float ew_ring_maxf(float a, float b)
+{
+	return a > b ? a : b;
+}
+static inline float ew_ring_choosef(float a, float b, float c)
+{
+	return a > 0 ? b : c;
+}
+static inline uint32_t ew_ring_bitsf(float a)
+{
+	uint32_t bits;
+	memcpy(&bits, &a, sizeof bits);
+	return bits - 0x3f3504f3;
+}
+static inline float ew_ring_exponentf(float a)
+{
+	return EW_CAST(float, EW_CAST(int32_t, ew_ring_bitsf(a) >> 23));
+}
+static inline float ew_ring_fractionf(float a)
+{
+	const uint32_t above = ew_ring_bitsf(a), bits = above - (above >> 23 << 23) + 0x3f3504f3;
+	memcpy(&a, &bits, sizeof a);
+	return a;
+}
 
 /* X(m, n, symbol, k): single edges; |result - exact| <= gamma_k W */
 #define EW_LINES_DOUBLE(X) \
@@ -209,6 +319,27 @@
 	X(EW_RING_MAGNITUDES_7, magnitudes, 7, 0, 42, 36, 25, 2) \
 	X(EW_RING_MAGNITUDES_8, magnitudes, 8, 0, 52, 45, 28, 2) \
 	X(EW_RING_COMPENSATED, compensated, 0, 0, 2, 1, 0, 0) \
+	X(EW_RING_LINE_0, line, 0, 0, 1, 1, 4, 1) \
+	X(EW_RING_QUAD_0, quad, 0, 0, 1, 1, 6, 1) \
+	X(EW_RING_QUAD_1, quad, 1, 0, 3, 3, 14, 1) \
+	X(EW_RING_QUAD_2, quad, 2, 0, 6, 6, 35, 1) \
+	X(EW_RING_QUAD_4, quad, 4, 0, 15, 15, 54, 1) \
+	X(EW_RING_QUAD_8, quad, 8, 0, 45, 45, 92, 1) \
+	X(EW_RING_CONIC_0, conic, 0, 0, 1, 1, 24, 1) \
+	X(EW_RING_CONIC_1, conic, 1, 0, 3, 3, 42, 1) \
+	X(EW_RING_CONIC_2, conic, 2, 0, 6, 6, 52, 1) \
+	X(EW_RING_CONIC_4, conic, 4, 0, 15, 15, 73, 1) \
+	X(EW_RING_CONIC_8, conic, 8, 0, 45, 45, 114, 1) \
+	X(EW_RING_CUBIC_0, cubic, 0, 0, 1, 1, 9, 1) \
+	X(EW_RING_CUBIC_1, cubic, 1, 0, 3, 3, 22, 1) \
+	X(EW_RING_CUBIC_2, cubic, 2, 0, 6, 6, 50, 1) \
+	X(EW_RING_CUBIC_4, cubic, 4, 0, 15, 15, 76, 1) \
+	X(EW_RING_CUBIC_8, cubic, 8, 0, 45, 45, 127, 1) \
+	X(EW_RING_RADIUS_INVERSE, radius, -1, 0, 1, 1, 40, 1) \
+	X(EW_RING_RADIUS_1, radius, 1, 0, 1, 1, 28, 1) \
+	X(EW_RING_RADIUS_3, radius, 3, 0, 1, 1, 34, 1) \
+	X(EW_RING_RADIUS_5, radius, 5, 0, 1, 1, 40, 1) \
+	X(EW_RING_CLOSURE, closure, 0, 0, 1, 1, 4, 1) \
 	X(EW_RING_X0Y0, monomial, 0, 0, 2, 1, 5, 1) \
 	X(EW_RING_X1Y0, monomial, 1, 0, 1, 1, 7, 1) \
 	X(EW_RING_X0Y1, monomial, 0, 1, 1, 1, 7, 1) \
@@ -275,6 +406,27 @@ enum {
 	EW_RING_MAGNITUDES_7,
 	EW_RING_MAGNITUDES_8,
 	EW_RING_COMPENSATED,
+	EW_RING_LINE_0,
+	EW_RING_QUAD_0,
+	EW_RING_QUAD_1,
+	EW_RING_QUAD_2,
+	EW_RING_QUAD_4,
+	EW_RING_QUAD_8,
+	EW_RING_CONIC_0,
+	EW_RING_CONIC_1,
+	EW_RING_CONIC_2,
+	EW_RING_CONIC_4,
+	EW_RING_CONIC_8,
+	EW_RING_CUBIC_0,
+	EW_RING_CUBIC_1,
+	EW_RING_CUBIC_2,
+	EW_RING_CUBIC_4,
+	EW_RING_CUBIC_8,
+	EW_RING_RADIUS_INVERSE,
+	EW_RING_RADIUS_1,
+	EW_RING_RADIUS_3,
+	EW_RING_RADIUS_5,
+	EW_RING_CLOSURE,
 	EW_RING_X0Y0,
 	EW_RING_X1Y0,
 	EW_RING_X0Y1,
@@ -346,6 +498,27 @@ enum {
 	X(EW_RING_MAGNITUDES_7, 2, 1, 42, 36, ew_ring_magnitudes_7_finish) \
 	X(EW_RING_MAGNITUDES_8, 2, 1, 52, 45, ew_ring_magnitudes_8_finish) \
 	X(EW_RING_COMPENSATED, 2, 1, 2, 1, ew_ring_compensated_finish) \
+	X(EW_RING_LINE_0, 2, 1, 1, 1, ew_ring_line_0_finish) \
+	X(EW_RING_QUAD_0, 3, 1, 1, 1, ew_ring_quad_0_finish) \
+	X(EW_RING_QUAD_1, 3, 1, 3, 3, ew_ring_quad_1_finish) \
+	X(EW_RING_QUAD_2, 3, 1, 6, 6, ew_ring_quad_2_finish) \
+	X(EW_RING_QUAD_4, 3, 1, 15, 15, ew_ring_quad_4_finish) \
+	X(EW_RING_QUAD_8, 3, 1, 45, 45, ew_ring_quad_8_finish) \
+	X(EW_RING_CONIC_0, 4, 1, 1, 1, ew_ring_conic_0_finish) \
+	X(EW_RING_CONIC_1, 4, 1, 3, 3, ew_ring_conic_1_finish) \
+	X(EW_RING_CONIC_2, 4, 1, 6, 6, ew_ring_conic_2_finish) \
+	X(EW_RING_CONIC_4, 4, 1, 15, 15, ew_ring_conic_4_finish) \
+	X(EW_RING_CONIC_8, 4, 1, 45, 45, ew_ring_conic_8_finish) \
+	X(EW_RING_CUBIC_0, 4, 1, 1, 1, ew_ring_cubic_0_finish) \
+	X(EW_RING_CUBIC_1, 4, 1, 3, 3, ew_ring_cubic_1_finish) \
+	X(EW_RING_CUBIC_2, 4, 1, 6, 6, ew_ring_cubic_2_finish) \
+	X(EW_RING_CUBIC_4, 4, 1, 15, 15, ew_ring_cubic_4_finish) \
+	X(EW_RING_CUBIC_8, 4, 1, 45, 45, ew_ring_cubic_8_finish) \
+	X(EW_RING_RADIUS_INVERSE, 2, 1, 1, 1, ew_ring_radius_inverse_finish) \
+	X(EW_RING_RADIUS_1, 2, 1, 1, 1, ew_ring_radius_1_finish) \
+	X(EW_RING_RADIUS_3, 2, 1, 1, 1, ew_ring_radius_3_finish) \
+	X(EW_RING_RADIUS_5, 2, 1, 1, 1, ew_ring_radius_5_finish) \
+	X(EW_RING_CLOSURE, 2, 1, 1, 1, ew_ring_closure_finish) \
 	X(EW_RING_X0Y0, 3, 2, 2, 1, ew_ring_x0y0_finish) \
 	X(EW_RING_X1Y0, 2, 1, 1, 1, ew_ring_x1y0_finish) \
 	X(EW_RING_X0Y1, 2, 1, 1, 1, ew_ring_x0y1_finish) \
@@ -465,6 +638,27 @@ enum {
 	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7_portable, 108, 93) \
 	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8_portable, 139, 118) \
 	X(EW_RING_COMPENSATED, ew_ring_compensated_portable, 14, 36) \
+	X(EW_RING_LINE_0, ew_ring_line_0_portable, 2, 2) \
+	X(EW_RING_QUAD_0, ew_ring_quad_0_portable, 7, 6) \
+	X(EW_RING_QUAD_1, ew_ring_quad_1_portable, 24, 20) \
+	X(EW_RING_QUAD_2, ew_ring_quad_2_portable, 51, 53) \
+	X(EW_RING_QUAD_4, ew_ring_quad_4_portable, 124, 128) \
+	X(EW_RING_QUAD_8, ew_ring_quad_8_portable, 498, 506) \
+	X(EW_RING_CONIC_0, ew_ring_conic_0_portable, 57, 75) \
+	X(EW_RING_CONIC_1, ew_ring_conic_1_portable, 56, 53) \
+	X(EW_RING_CONIC_2, ew_ring_conic_2_portable, 111, 83) \
+	X(EW_RING_CONIC_4, ew_ring_conic_4_portable, 299, 211) \
+	X(EW_RING_CONIC_8, ew_ring_conic_8_portable, 1492, 970) \
+	X(EW_RING_CUBIC_0, ew_ring_cubic_0_portable, 14, 12) \
+	X(EW_RING_CUBIC_1, ew_ring_cubic_1_portable, 48, 40) \
+	X(EW_RING_CUBIC_2, ew_ring_cubic_2_portable, 96, 98) \
+	X(EW_RING_CUBIC_4, ew_ring_cubic_4_portable, 206, 210) \
+	X(EW_RING_CUBIC_8, ew_ring_cubic_8_portable, 779, 789) \
+	X(EW_RING_RADIUS_INVERSE, ew_ring_radius_inverse_portable, 45, 59) \
+	X(EW_RING_RADIUS_1, ew_ring_radius_1_portable, 41, 56) \
+	X(EW_RING_RADIUS_3, ew_ring_radius_3_portable, 55, 62) \
+	X(EW_RING_RADIUS_5, ew_ring_radius_5_portable, 63, 67) \
+	X(EW_RING_CLOSURE, ew_ring_closure_portable, 2, 2) \
 	X(EW_RING_X0Y0, ew_ring_x0y0_portable, 1, 3) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_portable, 3, 3) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_portable, 3, 3) \
@@ -532,6 +726,27 @@ enum {
 	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7_fma, 108, 28) \
 	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8_fma, 139, 36) \
 	X(EW_RING_COMPENSATED, ew_ring_compensated_fma, 4, 16) \
+	X(EW_RING_LINE_0, ew_ring_line_0_fma, 2, 2) \
+	X(EW_RING_QUAD_0, ew_ring_quad_0_fma, 7, 5) \
+	X(EW_RING_QUAD_1, ew_ring_quad_1_fma, 24, 14) \
+	X(EW_RING_QUAD_2, ew_ring_quad_2_fma, 51, 41) \
+	X(EW_RING_QUAD_4, ew_ring_quad_4_fma, 124, 104) \
+	X(EW_RING_QUAD_8, ew_ring_quad_8_fma, 498, 446) \
+	X(EW_RING_CONIC_0, ew_ring_conic_0_fma, 57, 30) \
+	X(EW_RING_CONIC_1, ew_ring_conic_1_fma, 56, 39) \
+	X(EW_RING_CONIC_2, ew_ring_conic_2_fma, 111, 51) \
+	X(EW_RING_CONIC_4, ew_ring_conic_4_fma, 299, 103) \
+	X(EW_RING_CONIC_8, ew_ring_conic_8_fma, 1492, 294) \
+	X(EW_RING_CUBIC_0, ew_ring_cubic_0_fma, 14, 10) \
+	X(EW_RING_CUBIC_1, ew_ring_cubic_1_fma, 48, 23) \
+	X(EW_RING_CUBIC_2, ew_ring_cubic_2_fma, 96, 65) \
+	X(EW_RING_CUBIC_4, ew_ring_cubic_4_fma, 206, 154) \
+	X(EW_RING_CUBIC_8, ew_ring_cubic_8_fma, 779, 665) \
+	X(EW_RING_RADIUS_INVERSE, ew_ring_radius_inverse_fma, 35, 24) \
+	X(EW_RING_RADIUS_1, ew_ring_radius_1_fma, 31, 21) \
+	X(EW_RING_RADIUS_3, ew_ring_radius_3_fma, 45, 24) \
+	X(EW_RING_RADIUS_5, ew_ring_radius_5_fma, 53, 27) \
+	X(EW_RING_CLOSURE, ew_ring_closure_fma, 2, 2) \
 	X(EW_RING_X0Y0, ew_ring_x0y0_fma, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_fma, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_fma, 3, 2) \
@@ -599,6 +814,27 @@ enum {
 	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7_avx2, 108, 28) \
 	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8_avx2, 139, 36) \
 	X(EW_RING_COMPENSATED, ew_ring_compensated_avx2, 4, 16) \
+	X(EW_RING_LINE_0, ew_ring_line_0_avx2, 2, 2) \
+	X(EW_RING_QUAD_0, ew_ring_quad_0_avx2, 7, 5) \
+	X(EW_RING_QUAD_1, ew_ring_quad_1_avx2, 24, 14) \
+	X(EW_RING_QUAD_2, ew_ring_quad_2_avx2, 51, 41) \
+	X(EW_RING_QUAD_4, ew_ring_quad_4_avx2, 124, 104) \
+	X(EW_RING_QUAD_8, ew_ring_quad_8_avx2, 498, 446) \
+	X(EW_RING_CONIC_0, ew_ring_conic_0_avx2, 57, 30) \
+	X(EW_RING_CONIC_1, ew_ring_conic_1_avx2, 56, 39) \
+	X(EW_RING_CONIC_2, ew_ring_conic_2_avx2, 111, 51) \
+	X(EW_RING_CONIC_4, ew_ring_conic_4_avx2, 299, 103) \
+	X(EW_RING_CONIC_8, ew_ring_conic_8_avx2, 1492, 294) \
+	X(EW_RING_CUBIC_0, ew_ring_cubic_0_avx2, 14, 10) \
+	X(EW_RING_CUBIC_1, ew_ring_cubic_1_avx2, 48, 23) \
+	X(EW_RING_CUBIC_2, ew_ring_cubic_2_avx2, 96, 65) \
+	X(EW_RING_CUBIC_4, ew_ring_cubic_4_avx2, 206, 154) \
+	X(EW_RING_CUBIC_8, ew_ring_cubic_8_avx2, 779, 665) \
+	X(EW_RING_RADIUS_INVERSE, ew_ring_radius_inverse_avx2, 35, 24) \
+	X(EW_RING_RADIUS_1, ew_ring_radius_1_avx2, 31, 21) \
+	X(EW_RING_RADIUS_3, ew_ring_radius_3_avx2, 45, 24) \
+	X(EW_RING_RADIUS_5, ew_ring_radius_5_avx2, 53, 27) \
+	X(EW_RING_CLOSURE, ew_ring_closure_avx2, 2, 2) \
 	X(EW_RING_X0Y0, ew_ring_x0y0_avx2, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_avx2, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_avx2, 3, 2) \
@@ -666,6 +902,27 @@ enum {
 	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7_avx512, 108, 28) \
 	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8_avx512, 139, 36) \
 	X(EW_RING_COMPENSATED, ew_ring_compensated_avx512, 4, 16) \
+	X(EW_RING_LINE_0, ew_ring_line_0_avx512, 2, 2) \
+	X(EW_RING_QUAD_0, ew_ring_quad_0_avx512, 7, 5) \
+	X(EW_RING_QUAD_1, ew_ring_quad_1_avx512, 24, 14) \
+	X(EW_RING_QUAD_2, ew_ring_quad_2_avx512, 51, 41) \
+	X(EW_RING_QUAD_4, ew_ring_quad_4_avx512, 124, 104) \
+	X(EW_RING_QUAD_8, ew_ring_quad_8_avx512, 498, 446) \
+	X(EW_RING_CONIC_0, ew_ring_conic_0_avx512, 57, 30) \
+	X(EW_RING_CONIC_1, ew_ring_conic_1_avx512, 56, 39) \
+	X(EW_RING_CONIC_2, ew_ring_conic_2_avx512, 111, 51) \
+	X(EW_RING_CONIC_4, ew_ring_conic_4_avx512, 299, 103) \
+	X(EW_RING_CONIC_8, ew_ring_conic_8_avx512, 1492, 294) \
+	X(EW_RING_CUBIC_0, ew_ring_cubic_0_avx512, 14, 10) \
+	X(EW_RING_CUBIC_1, ew_ring_cubic_1_avx512, 48, 23) \
+	X(EW_RING_CUBIC_2, ew_ring_cubic_2_avx512, 96, 65) \
+	X(EW_RING_CUBIC_4, ew_ring_cubic_4_avx512, 206, 154) \
+	X(EW_RING_CUBIC_8, ew_ring_cubic_8_avx512, 779, 665) \
+	X(EW_RING_RADIUS_INVERSE, ew_ring_radius_inverse_avx512, 35, 24) \
+	X(EW_RING_RADIUS_1, ew_ring_radius_1_avx512, 31, 21) \
+	X(EW_RING_RADIUS_3, ew_ring_radius_3_avx512, 45, 24) \
+	X(EW_RING_RADIUS_5, ew_ring_radius_5_avx512, 53, 27) \
+	X(EW_RING_CLOSURE, ew_ring_closure_avx512, 2, 2) \
 	X(EW_RING_X0Y0, ew_ring_x0y0_avx512, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_avx512, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_avx512, 3, 2) \
@@ -733,6 +990,27 @@ enum {
 	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7_neon, 108, 28) \
 	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8_neon, 139, 36) \
 	X(EW_RING_COMPENSATED, ew_ring_compensated_neon, 4, 16) \
+	X(EW_RING_LINE_0, ew_ring_line_0_neon, 2, 2) \
+	X(EW_RING_QUAD_0, ew_ring_quad_0_neon, 7, 5) \
+	X(EW_RING_QUAD_1, ew_ring_quad_1_neon, 24, 14) \
+	X(EW_RING_QUAD_2, ew_ring_quad_2_neon, 51, 41) \
+	X(EW_RING_QUAD_4, ew_ring_quad_4_neon, 124, 104) \
+	X(EW_RING_QUAD_8, ew_ring_quad_8_neon, 498, 446) \
+	X(EW_RING_CONIC_0, ew_ring_conic_0_neon, 57, 30) \
+	X(EW_RING_CONIC_1, ew_ring_conic_1_neon, 56, 39) \
+	X(EW_RING_CONIC_2, ew_ring_conic_2_neon, 111, 51) \
+	X(EW_RING_CONIC_4, ew_ring_conic_4_neon, 299, 103) \
+	X(EW_RING_CONIC_8, ew_ring_conic_8_neon, 1492, 294) \
+	X(EW_RING_CUBIC_0, ew_ring_cubic_0_neon, 14, 10) \
+	X(EW_RING_CUBIC_1, ew_ring_cubic_1_neon, 48, 23) \
+	X(EW_RING_CUBIC_2, ew_ring_cubic_2_neon, 96, 65) \
+	X(EW_RING_CUBIC_4, ew_ring_cubic_4_neon, 206, 154) \
+	X(EW_RING_CUBIC_8, ew_ring_cubic_8_neon, 779, 665) \
+	X(EW_RING_RADIUS_INVERSE, ew_ring_radius_inverse_neon, 35, 24) \
+	X(EW_RING_RADIUS_1, ew_ring_radius_1_neon, 31, 21) \
+	X(EW_RING_RADIUS_3, ew_ring_radius_3_neon, 45, 24) \
+	X(EW_RING_RADIUS_5, ew_ring_radius_5_neon, 53, 27) \
+	X(EW_RING_CLOSURE, ew_ring_closure_neon, 2, 2) \
 	X(EW_RING_X0Y0, ew_ring_x0y0_neon, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_neon, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_neon, 3, 2) \
@@ -803,6 +1081,27 @@ enum {
 	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7f_portable, 108, 93) \
 	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8f_portable, 139, 118) \
 	X(EW_RING_COMPENSATED, ew_ring_compensatedf_portable, 14, 36) \
+	X(EW_RING_LINE_0, ew_ring_line_0f_portable, 2, 2) \
+	X(EW_RING_QUAD_0, ew_ring_quad_0f_portable, 7, 6) \
+	X(EW_RING_QUAD_1, ew_ring_quad_1f_portable, 24, 20) \
+	X(EW_RING_QUAD_2, ew_ring_quad_2f_portable, 51, 53) \
+	X(EW_RING_QUAD_4, ew_ring_quad_4f_portable, 124, 128) \
+	X(EW_RING_QUAD_8, ew_ring_quad_8f_portable, 498, 506) \
+	X(EW_RING_CONIC_0, ew_ring_conic_0f_portable, 37, 55) \
+	X(EW_RING_CONIC_1, ew_ring_conic_1f_portable, 41, 38) \
+	X(EW_RING_CONIC_2, ew_ring_conic_2f_portable, 81, 58) \
+	X(EW_RING_CONIC_4, ew_ring_conic_4f_portable, 244, 161) \
+	X(EW_RING_CONIC_8, ew_ring_conic_8f_portable, 1357, 840) \
+	X(EW_RING_CUBIC_0, ew_ring_cubic_0f_portable, 14, 12) \
+	X(EW_RING_CUBIC_1, ew_ring_cubic_1f_portable, 48, 40) \
+	X(EW_RING_CUBIC_2, ew_ring_cubic_2f_portable, 96, 98) \
+	X(EW_RING_CUBIC_4, ew_ring_cubic_4f_portable, 206, 210) \
+	X(EW_RING_CUBIC_8, ew_ring_cubic_8f_portable, 779, 789) \
+	X(EW_RING_RADIUS_INVERSE, ew_ring_radius_inversef_portable, 41, 55) \
+	X(EW_RING_RADIUS_1, ew_ring_radius_1f_portable, 37, 52) \
+	X(EW_RING_RADIUS_3, ew_ring_radius_3f_portable, 51, 58) \
+	X(EW_RING_RADIUS_5, ew_ring_radius_5f_portable, 59, 63) \
+	X(EW_RING_CLOSURE, ew_ring_closuref_portable, 2, 2) \
 	X(EW_RING_X0Y0, ew_ring_x0y0f_portable, 1, 3) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_portable, 3, 3) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_portable, 3, 3) \
@@ -870,6 +1169,27 @@ enum {
 	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7f_fma, 108, 28) \
 	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8f_fma, 139, 36) \
 	X(EW_RING_COMPENSATED, ew_ring_compensatedf_fma, 4, 16) \
+	X(EW_RING_LINE_0, ew_ring_line_0f_fma, 2, 2) \
+	X(EW_RING_QUAD_0, ew_ring_quad_0f_fma, 7, 5) \
+	X(EW_RING_QUAD_1, ew_ring_quad_1f_fma, 24, 14) \
+	X(EW_RING_QUAD_2, ew_ring_quad_2f_fma, 51, 41) \
+	X(EW_RING_QUAD_4, ew_ring_quad_4f_fma, 124, 104) \
+	X(EW_RING_QUAD_8, ew_ring_quad_8f_fma, 498, 446) \
+	X(EW_RING_CONIC_0, ew_ring_conic_0f_fma, 37, 30) \
+	X(EW_RING_CONIC_1, ew_ring_conic_1f_fma, 41, 29) \
+	X(EW_RING_CONIC_2, ew_ring_conic_2f_fma, 81, 36) \
+	X(EW_RING_CONIC_4, ew_ring_conic_4f_fma, 244, 68) \
+	X(EW_RING_CONIC_8, ew_ring_conic_8f_fma, 1357, 189) \
+	X(EW_RING_CUBIC_0, ew_ring_cubic_0f_fma, 14, 10) \
+	X(EW_RING_CUBIC_1, ew_ring_cubic_1f_fma, 48, 23) \
+	X(EW_RING_CUBIC_2, ew_ring_cubic_2f_fma, 96, 65) \
+	X(EW_RING_CUBIC_4, ew_ring_cubic_4f_fma, 206, 154) \
+	X(EW_RING_CUBIC_8, ew_ring_cubic_8f_fma, 779, 665) \
+	X(EW_RING_RADIUS_INVERSE, ew_ring_radius_inversef_fma, 31, 24) \
+	X(EW_RING_RADIUS_1, ew_ring_radius_1f_fma, 27, 21) \
+	X(EW_RING_RADIUS_3, ew_ring_radius_3f_fma, 41, 24) \
+	X(EW_RING_RADIUS_5, ew_ring_radius_5f_fma, 49, 27) \
+	X(EW_RING_CLOSURE, ew_ring_closuref_fma, 2, 2) \
 	X(EW_RING_X0Y0, ew_ring_x0y0f_fma, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_fma, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_fma, 3, 2) \
@@ -937,6 +1257,27 @@ enum {
 	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7f_avx2, 108, 28) \
 	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8f_avx2, 139, 36) \
 	X(EW_RING_COMPENSATED, ew_ring_compensatedf_avx2, 4, 16) \
+	X(EW_RING_LINE_0, ew_ring_line_0f_avx2, 2, 2) \
+	X(EW_RING_QUAD_0, ew_ring_quad_0f_avx2, 7, 5) \
+	X(EW_RING_QUAD_1, ew_ring_quad_1f_avx2, 24, 14) \
+	X(EW_RING_QUAD_2, ew_ring_quad_2f_avx2, 51, 41) \
+	X(EW_RING_QUAD_4, ew_ring_quad_4f_avx2, 124, 104) \
+	X(EW_RING_QUAD_8, ew_ring_quad_8f_avx2, 498, 446) \
+	X(EW_RING_CONIC_0, ew_ring_conic_0f_avx2, 37, 30) \
+	X(EW_RING_CONIC_1, ew_ring_conic_1f_avx2, 41, 29) \
+	X(EW_RING_CONIC_2, ew_ring_conic_2f_avx2, 81, 36) \
+	X(EW_RING_CONIC_4, ew_ring_conic_4f_avx2, 244, 68) \
+	X(EW_RING_CONIC_8, ew_ring_conic_8f_avx2, 1357, 189) \
+	X(EW_RING_CUBIC_0, ew_ring_cubic_0f_avx2, 14, 10) \
+	X(EW_RING_CUBIC_1, ew_ring_cubic_1f_avx2, 48, 23) \
+	X(EW_RING_CUBIC_2, ew_ring_cubic_2f_avx2, 96, 65) \
+	X(EW_RING_CUBIC_4, ew_ring_cubic_4f_avx2, 206, 154) \
+	X(EW_RING_CUBIC_8, ew_ring_cubic_8f_avx2, 779, 665) \
+	X(EW_RING_RADIUS_INVERSE, ew_ring_radius_inversef_avx2, 31, 24) \
+	X(EW_RING_RADIUS_1, ew_ring_radius_1f_avx2, 27, 21) \
+	X(EW_RING_RADIUS_3, ew_ring_radius_3f_avx2, 41, 24) \
+	X(EW_RING_RADIUS_5, ew_ring_radius_5f_avx2, 49, 27) \
+	X(EW_RING_CLOSURE, ew_ring_closuref_avx2, 2, 2) \
 	X(EW_RING_X0Y0, ew_ring_x0y0f_avx2, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_avx2, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_avx2, 3, 2) \
@@ -1004,6 +1345,27 @@ enum {
 	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7f_avx512, 108, 28) \
 	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8f_avx512, 139, 36) \
 	X(EW_RING_COMPENSATED, ew_ring_compensatedf_avx512, 4, 16) \
+	X(EW_RING_LINE_0, ew_ring_line_0f_avx512, 2, 2) \
+	X(EW_RING_QUAD_0, ew_ring_quad_0f_avx512, 7, 5) \
+	X(EW_RING_QUAD_1, ew_ring_quad_1f_avx512, 24, 14) \
+	X(EW_RING_QUAD_2, ew_ring_quad_2f_avx512, 51, 41) \
+	X(EW_RING_QUAD_4, ew_ring_quad_4f_avx512, 124, 104) \
+	X(EW_RING_QUAD_8, ew_ring_quad_8f_avx512, 498, 446) \
+	X(EW_RING_CONIC_0, ew_ring_conic_0f_avx512, 37, 30) \
+	X(EW_RING_CONIC_1, ew_ring_conic_1f_avx512, 41, 29) \
+	X(EW_RING_CONIC_2, ew_ring_conic_2f_avx512, 81, 36) \
+	X(EW_RING_CONIC_4, ew_ring_conic_4f_avx512, 244, 68) \
+	X(EW_RING_CONIC_8, ew_ring_conic_8f_avx512, 1357, 189) \
+	X(EW_RING_CUBIC_0, ew_ring_cubic_0f_avx512, 14, 10) \
+	X(EW_RING_CUBIC_1, ew_ring_cubic_1f_avx512, 48, 23) \
+	X(EW_RING_CUBIC_2, ew_ring_cubic_2f_avx512, 96, 65) \
+	X(EW_RING_CUBIC_4, ew_ring_cubic_4f_avx512, 206, 154) \
+	X(EW_RING_CUBIC_8, ew_ring_cubic_8f_avx512, 779, 665) \
+	X(EW_RING_RADIUS_INVERSE, ew_ring_radius_inversef_avx512, 31, 24) \
+	X(EW_RING_RADIUS_1, ew_ring_radius_1f_avx512, 27, 21) \
+	X(EW_RING_RADIUS_3, ew_ring_radius_3f_avx512, 41, 24) \
+	X(EW_RING_RADIUS_5, ew_ring_radius_5f_avx512, 49, 27) \
+	X(EW_RING_CLOSURE, ew_ring_closuref_avx512, 2, 2) \
 	X(EW_RING_X0Y0, ew_ring_x0y0f_avx512, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_avx512, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_avx512, 3, 2) \
@@ -1071,6 +1433,27 @@ enum {
 	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7f_neon, 108, 28) \
 	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8f_neon, 139, 36) \
 	X(EW_RING_COMPENSATED, ew_ring_compensatedf_neon, 4, 16) \
+	X(EW_RING_LINE_0, ew_ring_line_0f_neon, 2, 2) \
+	X(EW_RING_QUAD_0, ew_ring_quad_0f_neon, 7, 5) \
+	X(EW_RING_QUAD_1, ew_ring_quad_1f_neon, 24, 14) \
+	X(EW_RING_QUAD_2, ew_ring_quad_2f_neon, 51, 41) \
+	X(EW_RING_QUAD_4, ew_ring_quad_4f_neon, 124, 104) \
+	X(EW_RING_QUAD_8, ew_ring_quad_8f_neon, 498, 446) \
+	X(EW_RING_CONIC_0, ew_ring_conic_0f_neon, 37, 30) \
+	X(EW_RING_CONIC_1, ew_ring_conic_1f_neon, 41, 29) \
+	X(EW_RING_CONIC_2, ew_ring_conic_2f_neon, 81, 36) \
+	X(EW_RING_CONIC_4, ew_ring_conic_4f_neon, 244, 68) \
+	X(EW_RING_CONIC_8, ew_ring_conic_8f_neon, 1357, 189) \
+	X(EW_RING_CUBIC_0, ew_ring_cubic_0f_neon, 14, 10) \
+	X(EW_RING_CUBIC_1, ew_ring_cubic_1f_neon, 48, 23) \
+	X(EW_RING_CUBIC_2, ew_ring_cubic_2f_neon, 96, 65) \
+	X(EW_RING_CUBIC_4, ew_ring_cubic_4f_neon, 206, 154) \
+	X(EW_RING_CUBIC_8, ew_ring_cubic_8f_neon, 779, 665) \
+	X(EW_RING_RADIUS_INVERSE, ew_ring_radius_inversef_neon, 31, 24) \
+	X(EW_RING_RADIUS_1, ew_ring_radius_1f_neon, 27, 21) \
+	X(EW_RING_RADIUS_3, ew_ring_radius_3f_neon, 41, 24) \
+	X(EW_RING_RADIUS_5, ew_ring_radius_5f_neon, 49, 27) \
+	X(EW_RING_CLOSURE, ew_ring_closuref_neon, 2, 2) \
 	X(EW_RING_X0Y0, ew_ring_x0y0f_neon, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_neon, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_neon, 3, 2) \
@@ -1129,6 +1512,20 @@ enum {
 	X(ew_ring_moments_6_k, 2, 81, 22, 2) \
 	X(ew_ring_moments_7_k, 2, 108, 25, 2) \
 	X(ew_ring_moments_8_k, 2, 139, 28, 2)
+
+/* Kernels of edges one by one, for the moments to degree 0, 1, ... */
+#define EW_IDS_LINE EW_RING_LINE_0, EW_RING_MOMENTS_1, EW_RING_MOMENTS_2, EW_RING_MOMENTS_3, \
+	EW_RING_MOMENTS_4, EW_RING_MOMENTS_5, EW_RING_MOMENTS_6, EW_RING_MOMENTS_7, \
+	EW_RING_MOMENTS_8
+#define EW_IDS_QUAD EW_RING_QUAD_0, EW_RING_QUAD_1, EW_RING_QUAD_2, EW_RING_QUAD_4, \
+	EW_RING_QUAD_4, EW_RING_QUAD_8, EW_RING_QUAD_8, EW_RING_QUAD_8, \
+	EW_RING_QUAD_8
+#define EW_IDS_CONIC EW_RING_CONIC_0, EW_RING_CONIC_1, EW_RING_CONIC_2, EW_RING_CONIC_4, \
+	EW_RING_CONIC_4, EW_RING_CONIC_8, EW_RING_CONIC_8, EW_RING_CONIC_8, \
+	EW_RING_CONIC_8
+#define EW_IDS_CUBIC EW_RING_CUBIC_0, EW_RING_CUBIC_1, EW_RING_CUBIC_2, EW_RING_CUBIC_4, \
+	EW_RING_CUBIC_4, EW_RING_CUBIC_8, EW_RING_CUBIC_8, EW_RING_CUBIC_8, \
+	EW_RING_CUBIC_8
 
 /* Items of batch kernels, see edgewise_sides_template.h */
 #define EW_SUMS_0 2

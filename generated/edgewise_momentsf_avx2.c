@@ -51,7 +51,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_0f_avx2(
 		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
-				float pad[4][8];
+				float pad[6][8];
 				int at = 0;
 				const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 8);
 				const __m256 y0 = _mm256_loadu_ps(at_y0);
@@ -65,7 +65,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_moments_0f_avx2(
 			}
 			{
 				const size_t rest = count - i > step ? count - i - step : 0;
-				float pad[4][8];
+				float pad[6][8];
 				int at = 0;
 				const float *at_y0 = ew_ring_padf(pad[at++], y + i + step, rest, 8);
 				const __m256 y0 = _mm256_loadu_ps(at_y0);

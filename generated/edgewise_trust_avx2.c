@@ -55,7 +55,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_magnitudes_0_avx2(
 		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
-				double pad[4][4];
+				double pad[6][4];
 				int at = 0;
 				const double *at_y0 = ew_ring_pad(pad[at++], y + i, rest, 4);
 				const __m256d y0 = _mm256_loadu_pd(at_y0);
@@ -71,7 +71,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_magnitudes_0_avx2(
 			}
 			{
 				const size_t rest = count - i > step ? count - i - step : 0;
-				double pad[4][4];
+				double pad[6][4];
 				int at = 0;
 				const double *at_y0 = ew_ring_pad(pad[at++], y + i + step, rest, 4);
 				const __m256d y0 = _mm256_loadu_pd(at_y0);

@@ -49,7 +49,7 @@ EW_ATTRIBUTE_NEON void ew_ring_magnitudes_0f_neon(
 		for (; i < count; i += 2 * step) {
 			{
 				const size_t rest = count - i;
-				float pad[4][4];
+				float pad[6][4];
 				int at = 0;
 				const float *at_y0 = ew_ring_padf(pad[at++], y + i, rest, 4);
 				const float32x4_t y0 = vld1q_f32(at_y0);
@@ -65,7 +65,7 @@ EW_ATTRIBUTE_NEON void ew_ring_magnitudes_0f_neon(
 			}
 			{
 				const size_t rest = count - i > step ? count - i - step : 0;
-				float pad[4][4];
+				float pad[6][4];
 				int at = 0;
 				const float *at_y0 = ew_ring_padf(pad[at++], y + i + step, rest, 4);
 				const float32x4_t y0 = vld1q_f32(at_y0);
