@@ -31,7 +31,8 @@ static Cross cross_of(Dag *dag, const Ref *a, const Ref *b, const Ref *size_a, c
 	Ref left = dag_mul(dag, a[0], b[1]), right = dag_mul(dag, a[1], b[0]);
 	Ref left_size = dag_mul(dag, size_a[0], size_b[1]);
 	Ref right_size = dag_mul(dag, size_a[1], size_b[0]);
-	return (Cross){ dag_sub(dag, left, right), dag_add(dag, left_size, right_size) };
+	Ref value = dag_sub(dag, left, right);
+	return (Cross){ value, dag_add(dag, left_size, right_size) };
 }
 
 /* T = 1/2 b x a = 1/4 (a + b) x (p2 - p0), a = p1 - p0, b = p1 - p2: the one whose terms are smaller.
@@ -42,7 +43,8 @@ static Ref triangle(Dag *dag, const Ref *a, const Ref *b)
 	Ref sum[2], chord[2], size[4][2];
 	for (int axis = 0; axis < 2; ++axis) {
 		sum[axis] = dag_add(dag, a[axis], b[axis]);
-		chord[axis] = dag_sub(dag, dag_var(dag, VAR_X2 + axis), dag_var(dag, VAR_X0 + axis));
+		Ref p0 = dag_var(dag, VAR_X0 + axis), p2 = dag_var(dag, VAR_X2 + axis);
+		chord[axis] = dag_sub(dag, p2, p0);
 		size[0][axis] = dag_unary(dag, OP_ABS, a[axis]);
 		size[1][axis] = dag_unary(dag, OP_ABS, b[axis]);
 		size[2][axis] = dag_add(dag, size[0][axis], size[1][axis]);
@@ -52,8 +54,8 @@ static Ref triangle(Dag *dag, const Ref *a, const Ref *b)
 	const Cross far = cross_of(dag, sum, chord, size[2], size[3]);
 	Ref half = dag_const(dag, rat(1, 2)), quarter = dag_const(dag, rat(1, 4));
 	Ref excess = dag_sub(dag, dag_mul(dag, half, far.size), near.size);
-	return dag_choose(dag, excess, dag_mul(dag, half, near.value),
-		dag_mul(dag, quarter, far.value));
+	Ref by_ends = dag_mul(dag, half, near.value), by_chord = dag_mul(dag, quarter, far.value);
+	return dag_choose(dag, excess, by_ends, by_chord);
 }
 
 static Frame frame(Dag *dag)
@@ -74,15 +76,10 @@ static Frame frame(Dag *dag)
 	return f;
 }
 
-static Ref divide(Dag *dag, Ref a, Ref b)
-{
-	return dag_node(dag, OP_DIV, a, b, NONE);
-}
-
 /* f for |w| = u <= 2; x = u - 1. */
 static Ref near_f(Dag *dag, int is_float, Ref u, Ref x)
 {
-	Ref g = divide(dag, u, dag_add(dag, u, dag_const(dag, conic_shift)));
+	Ref g = dag_div(dag, u, dag_add(dag, u, dag_const(dag, conic_shift)));
 	dag_name(dag, g, "g");
 	return dag_add(dag, g, dag_mul(dag, g, series_value(dag, series_conic(is_float), x)));
 }
@@ -103,9 +100,10 @@ static Dag *cap_area(int is_float)
 	Ref q = dag_name(dag, dag_unary(dag, OP_SQRT, d), "q");
 	const Logarithm log = logarithm(dag, is_float, dag_add(dag, u, q), NONE);
 	Ref whole = dag_add(dag, log.half, log.half);
-	Ref top = dag_choose(dag, w, dag_sub(dag, dag_mul(dag, u, whole), q),
-		dag_mul(dag, dag_const(dag, number(NUMBER_PI)), u));
-	Ref rest = dag_name(dag, divide(dag, top, dag_mul(dag, q, d)), "tail");
+	Ref outside = dag_sub(dag, dag_mul(dag, u, whole), q);
+	Ref ellipse = dag_scale(dag, number(NUMBER_PI), u);
+	Ref top = dag_choose(dag, w, outside, ellipse);
+	Ref rest = dag_name(dag, dag_div(dag, top, dag_mul(dag, q, d)), "tail");
 	Ref near = dag_name(dag, near_f(dag, is_float, u, x), "near");
 	Ref far = dag_sub(dag, one, rest), opposite = dag_sub(dag, near, rest);
 	Ref beyond = dag_sub(dag, w, dag_const(dag, rat(2, 1)));
@@ -113,7 +111,8 @@ static Dag *cap_area(int is_float)
 	Ref f = dag_choose(dag, beyond, far, dag_choose(dag, negative, opposite, near));
 	finish_room(dag, 0);
 	finish_next(dag, 0, 0, rat(1, 1));
-	dag_accumulate(dag, dag_mul(dag, dag_name(dag, f, "f"), frame(dag).area));
+	dag_name(dag, f, "f");
+	dag_accumulate(dag, dag_mul(dag, f, frame(dag).area));
 	return dag;
 }
 
@@ -136,8 +135,8 @@ static void add_cap_moments(Cap *cap, int is_float)
 	int nodes = gauss_jacobi(gauss_jacobi_nodes(cap->degree, is_float), node, weight);
 	Ref one = dag_const(dag, rat(1, 1)), w = dag_var(dag, VAR_W);
 	Ref above = dag_add(dag, w, one);
-	Ref tau = dag_name(dag, divide(dag, dag_sub(dag, w, one), above), "tau");
-	Ref top = dag_name(dag, divide(dag, w, above), "top");
+	Ref tau = dag_name(dag, dag_div(dag, dag_sub(dag, w, one), above), "tau");
+	Ref top = dag_name(dag, dag_div(dag, w, above), "top");
 	Ref value[JACOBI_MAX], square[JACOBI_MAX];   /* weight sqrt(1 - tau s) R^(a/2); R */
 	for (int i = 0; i < nodes; ++i) {
 		Ref rest = dag_sub(dag, one, dag_mul(dag, tau, dag_const(dag, node[i])));
@@ -172,8 +171,9 @@ static Ref mixed(Cap *cap, int m, int n, int a, int b)
 	if (m == 0 && n == 0)
 		return *place = a % 2 ? NONE : cap->cap[a][b];
 	const int axis = m == 0, less_m = m - !axis, less_n = n - axis;
-	const Ref part[2] = { mixed(cap, less_m, less_n, a + 1, b),
-		mixed(cap, less_m, less_n, a, b + 1) };
+	const Ref across = mixed(cap, less_m, less_n, a + 1, b);
+	const Ref along = mixed(cap, less_m, less_n, a, b + 1);
+	const Ref part[2] = { across, along };
 	const Ref by[2] = { cap->frame.u[axis], cap->frame.v[axis] };
 	Ref sum = NONE;
 	for (int i = 0; i < 2; ++i)

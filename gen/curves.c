@@ -22,15 +22,17 @@ typedef struct {
 
 static Ref cross_of(Dag *dag, Ref xi, Ref yi, Ref xj, Ref yj)
 {
-	return dag_sub(dag, dag_mul(dag, xi, yj), dag_mul(dag, xj, yi));
+	Ref left = dag_mul(dag, xi, yj), right = dag_mul(dag, xj, yi);
+	return dag_sub(dag, left, right);
 }
 
 /* ---- area ---- */
 
 static Ref point_cross(Dag *dag, int i, int j)
 {
-	Ref c = cross_of(dag, dag_var(dag, VAR_X0 + 2 * i), dag_var(dag, VAR_Y0 + 2 * i),
-		dag_var(dag, VAR_X0 + 2 * j), dag_var(dag, VAR_Y0 + 2 * j));
+	Ref xi = dag_var(dag, VAR_X0 + 2 * i), yi = dag_var(dag, VAR_Y0 + 2 * i);
+	Ref xj = dag_var(dag, VAR_X0 + 2 * j), yj = dag_var(dag, VAR_Y0 + 2 * j);
+	Ref c = cross_of(dag, xi, yi, xj, yj);
 	return dag_name(dag, c, format("c%d%d", i, j));
 }
 
@@ -66,7 +68,7 @@ Dag *curve_area_edge(int window)
 	Dag *dag = dag_new("cross-products");
 	dag->window = window;
 	Ref divisor = dag_const(dag, rat(area_divisor(window), 1));
-	dag_out(dag, dag_node(dag, OP_DIV, area_sum(dag), divisor, NONE));
+	dag_out(dag, dag_div(dag, area_sum(dag), divisor));
 	return dag;
 }
 
@@ -97,12 +99,12 @@ static void about_middle(Dag *dag, int degree, int first, char axis, Ref *coef)
 	} else {
 		Ref sum = dag_add(dag, p[0], p[3]), inner = dag_add(dag, p[1], p[2]);
 		Ref span = dag_sub(dag, p[3], p[0]), step = dag_sub(dag, p[2], p[1]);
-		coef[0] = dag_add(dag, dag_scale(dag, rat(1, 8), sum),
-			dag_scale(dag, rat(3, 8), inner));
+		Ref outer = dag_scale(dag, rat(1, 8), sum), between = dag_scale(dag, rat(3, 8), inner);
+		coef[0] = dag_add(dag, outer, between);
 		coef[1] = dag_scale(dag, rat(3, 8), dag_add(dag, span, step));
 		coef[2] = dag_scale(dag, rat(3, 8), dag_sub(dag, sum, inner));
-		coef[3] = dag_sub(dag, dag_scale(dag, rat(1, 8), span),
-			dag_scale(dag, rat(3, 8), step));
+		Ref rise = dag_scale(dag, rat(1, 8), span), turn = dag_scale(dag, rat(3, 8), step);
+		coef[3] = dag_sub(dag, rise, turn);
 	}
 	for (int i = 0; i <= degree; ++i)
 		dag_name(dag, coef[i], format("%c_%d", axis, i));
@@ -187,8 +189,9 @@ static Halves halves(Dag *dag, const Ref *coef, int degree, Rat tau)
 	if (tau.num == 0)
 		return (Halves){ coef[0], NONE };
 	Ref node = dag_const(dag, tau), square = dag_mul(dag, node, node);
-	return (Halves){ horner_of(dag, coef, 0, degree, square),
-		dag_mul(dag, node, horner_of(dag, coef, 1, degree, square)) };
+	Ref even = horner_of(dag, coef, 0, degree, square);
+	Ref odd = horner_of(dag, coef, 1, degree, square);
+	return (Halves){ even, dag_mul(dag, node, odd) };
 }
 
 typedef struct { Ref x, y, weight; } Node_values;    /* at one node */
@@ -293,6 +296,6 @@ Dag *curve_monomial_edge(int window, int m, int n)
 		}
 	}
 	Ref divisor = dag_const(dag, rat(m + n + 2, 1));
-	dag_out(dag, dag_node(dag, OP_DIV, sum, divisor, NONE));
+	dag_out(dag, dag_div(dag, sum, divisor));
 	return dag;
 }

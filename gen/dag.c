@@ -197,6 +197,11 @@ Ref dag_mul(Dag *dag, Ref a, Ref b)
 	return is_one(dag, b) ? a : dag_node(dag, OP_MUL, a, b, NONE);
 }
 
+Ref dag_div(Dag *dag, Ref a, Ref b)
+{
+	return dag_node(dag, OP_DIV, a, b, NONE);
+}
+
 Ref dag_unary(Dag *dag, int op, Ref a)
 {
 	return dag_node(dag, op, a, NONE, NONE);

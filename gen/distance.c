@@ -31,18 +31,14 @@ typedef struct {
 
 static Ref dot(Dag *dag, Ref ax, Ref ay, Ref bx, Ref by)
 {
-	return dag_add(dag, dag_mul(dag, ax, bx), dag_mul(dag, ay, by));
+	Ref x = dag_mul(dag, ax, bx), y = dag_mul(dag, ay, by);
+	return dag_add(dag, x, y);
 }
 
 /* a if it is > 0, else 1. */
 static Ref or_one(Dag *dag, Ref a)
 {
 	return dag_choose(dag, a, a, dag_const(dag, rat(1, 1)));
-}
-
-static Ref divide(Dag *dag, Ref a, Ref b)
-{
-	return dag_node(dag, OP_DIV, a, b, NONE);
 }
 
 /* x0 y1 - x1 y0 with the errors of both products, good to 2 u (Cornea, Harrison, Tang 2002). */
@@ -70,7 +66,7 @@ static Edge_values edge_values(Dag *dag, int is_float)
 	e.r1 = dag_name(dag, dag_unary(dag, OP_SQRT, e.q1), "r1");
 	e.sum = dag_name(dag, dag_add(dag, e.r0, e.r1), "radii");
 	e.safe = dag_name(dag, or_one(dag, e.sum), "safe");
-	e.inverse = dag_name(dag, divide(dag, e.one, e.safe), "inverse");
+	e.inverse = dag_name(dag, dag_div(dag, e.one, e.safe), "inverse");
 	Ref dx = difference_of(dag, VAR_X0, VAR_X1, "dx");
 	Ref dy = difference_of(dag, VAR_Y0, VAR_Y1, "dy");
 	e.d2 = dag_name(dag, dot(dag, dx, dy, dx, dy), "d2");
@@ -86,7 +82,7 @@ static Ref ratio(const Edge_values *e)
 	Rat unit = e->is_float ? rat(1, 1 << 24) : rat(1, (Int)1 << 53);
 	Ref least = dag_scale(e->dag, unit, e->safe);
 	Ref gap = dag_node(e->dag, OP_MAX, dag_sub(e->dag, e->safe, e->d), least, NONE);
-	return divide(e->dag, dag_add(e->dag, e->safe, e->d), gap);
+	return dag_div(e->dag, dag_add(e->dag, e->safe, e->d), gap);
 }
 
 static Ref twice(Dag *dag, Ref a)
@@ -122,8 +118,8 @@ static Dag *distance(const Edge_values *e)
 	Ref both;
 	const Logarithm log = logarithm(dag, e->is_float, ratio(e), e->tau);
 	Ref cube = dag_mul(dag, e->t, e->tau);
-	Ref beyond = divide(dag, dag_sub(dag, log.half, e->t),
-		dag_choose(dag, log.k, cube, e->one));
+	Ref rest = dag_sub(dag, log.half, e->t), below = dag_choose(dag, log.k, cube, e->one);
+	Ref beyond = dag_div(dag, rest, below);
 	Ref mean = dag_choose(dag, log.k, beyond, log.series);
 	return contribution(e, mean_1(e, mean, &both), rat(1, 12));
 }
@@ -134,19 +130,21 @@ static Dag *inverse_distance(const Edge_values *e)
 	Dag *dag = e->dag;
 	const Rat seam = rat(3, 4);
 	Ref product = dag_name(dag, dot(dag, e->x0, e->y0, e->x1, e->y1), "product");
-	Ref size = dag_add(dag, dag_mul(dag, e->r0, e->r1), dag_unary(dag, OP_ABS, product));
+	Ref radii = dag_mul(dag, e->r0, e->r1);
+	Ref size = dag_add(dag, radii, dag_unary(dag, OP_ABS, product));
 	Ref beta = dag_mul(dag, dag_mul(dag, size, e->inverse), e->inverse);
 	Ref sigma = dag_mul(dag, dag_mul(dag, e->s, e->inverse), e->inverse);
 	Ref a = dag_add(dag, e->one, e->t), aa = dag_mul(dag, a, a);
 	Ref far = dag_sub(dag, dag_const(dag, seam), e->t);
 	Ref squared = dag_mul(dag, sigma, sigma);
 	Ref top = dag_choose(dag, far, a, dag_choose(dag, product, aa, dag_mul(dag, aa, beta)));
-	Ref low = dag_choose(dag, far, dag_sub(dag, e->one, e->t), dag_choose(dag, product,
-		twice(dag, beta), twice(dag, squared)));
-	Ref z = dag_node(dag, OP_MAX, divide(dag, top, low), e->one, NONE);
+	Ref ahead = twice(dag, beta), behind = twice(dag, squared);
+	Ref gap = dag_sub(dag, e->one, e->t);
+	Ref low = dag_choose(dag, far, gap, dag_choose(dag, product, ahead, behind));
+	Ref z = dag_node(dag, OP_MAX, dag_div(dag, top, low), e->one, NONE);
 	Logarithm log = logarithm(dag, e->is_float, z, e->tau);
 	Ref series = dag_add(dag, e->one, dag_mul(dag, e->tau, log.series));
-	Ref beyond = divide(dag, log.half, dag_choose(dag, log.k, e->t, e->one));
+	Ref beyond = dag_div(dag, log.half, dag_choose(dag, log.k, e->t, e->one));
 	Ref mean = dag_choose(dag, log.k, beyond, series);
 	return contribution(e, dag_mul(dag, e->inverse, mean), rat(2, 1));
 }
@@ -155,7 +153,8 @@ static Dag *inverse_distance(const Edge_values *e)
  * negative anyway, stands in between. */
 static Ref balanced_sum(Dag *dag, Ref a, Ref b)
 {
-	return dag_add(dag, dag_unary(dag, OP_ABS, a), dag_unary(dag, OP_ABS, b));
+	Ref left = dag_unary(dag, OP_ABS, a), right = dag_unary(dag, OP_ABS, b);
+	return dag_add(dag, left, right);
 }
 
 /* k = 3 and 5. q2 = (2h/S)^2, from which e^2 = |p0+p1|^2/S^2 - q2: an error of q2 cancels between
@@ -163,26 +162,28 @@ static Ref balanced_sum(Dag *dag, Ref a, Ref b)
 static Dag *odd_power(const Edge_values *e, int power)
 {
 	Dag *dag = e->dag;
-	Ref both, inverse_d2 = divide(dag, e->one, or_one(dag, e->d2));
+	Ref both, inverse_d2 = dag_div(dag, e->one, or_one(dag, e->d2));
 	Logarithm log = logarithm(dag, e->is_float, ratio(e), e->tau);
 	Ref c = dag_mul(dag, e->safe, dag_mul(dag, e->safe, inverse_d2));   /* 1/tau */
-	Ref beyond = dag_mul(dag, dag_mul(dag, dag_sub(dag, log.half, e->t), e->t),
-		dag_mul(dag, c, c));
+	Ref rest = dag_mul(dag, dag_sub(dag, log.half, e->t), e->t);
+	Ref beyond = dag_mul(dag, rest, dag_mul(dag, c, c));
 	Ref mean1 = mean_1(e, dag_choose(dag, log.k, beyond, log.series), &both);
 	Ref g = dag_mul(dag, twice(dag, e->s), e->inverse), gg = dag_mul(dag, g, g);
 	Ref q2s = dag_mul(dag, dag_mul(dag, gg, inverse_d2), e->sum);
 	Ref e2s = dag_sub(dag, dag_mul(dag, both, e->inverse), q2s);
 	Ref h2 = dag_mul(dag, q2s, e->sum);                                  /* 4 h^2 */
 	Ref b = dag_mul(dag, e->r0, e->r1), sum = dag_add(dag, e->q0, e->q1);
-	Ref cubes = balanced_sum(dag, dag_mul(dag, e->r0, e->q0), dag_mul(dag, e->r1, e->q1));
+	Ref cube0 = dag_mul(dag, e->r0, e->q0), cube1 = dag_mul(dag, e->r1, e->q1);
+	Ref cubes = balanced_sum(dag, cube0, cube1);
 	Ref homogeneous = dag_add(dag, sum, b);
 	Ref mean3 = dag_add(dag, cubes, dag_mul(dag, e2s, homogeneous));
 	mean3 = dag_add(dag, mean3, dag_mul(dag, dag_scale(dag, rat(3, 8), h2), mean1));
 	if (power == 3)
 		return contribution(e, mean3, rat(1, 40));
 	Ref f0 = dag_mul(dag, e->q0, e->q0), f1 = dag_mul(dag, e->q1, e->q1);
-	Ref fifth = balanced_sum(dag, dag_mul(dag, e->r0, f0), dag_mul(dag, e->r1, f1));
-	homogeneous = dag_add(dag, dag_mul(dag, b, homogeneous), dag_add(dag, f0, f1));
+	Ref fifth0 = dag_mul(dag, e->r0, f0), fifth1 = dag_mul(dag, e->r1, f1);
+	Ref fifth = balanced_sum(dag, fifth0, fifth1), fourth = dag_add(dag, f0, f1);
+	homogeneous = dag_add(dag, dag_mul(dag, b, homogeneous), fourth);
 	Ref mean5 = dag_add(dag, fifth, dag_mul(dag, e2s, homogeneous));
 	mean5 = dag_add(dag, mean5, dag_mul(dag, dag_scale(dag, rat(5, 16), h2), mean3));
 	return contribution(e, mean5, rat(1, 84));
@@ -203,8 +204,9 @@ Dag *distance_power(int power, int is_float)
 Dag *closure_sum(void)
 {
 	Dag *dag = dag_new("products");
-	Ref start = dag_mul(dag, dag_var(dag, VAR_X0), dag_var(dag, VAR_Y0));
-	Ref end = dag_mul(dag, dag_var(dag, VAR_X1), dag_var(dag, VAR_Y1));
+	const Leaves at = ends(dag);
+	Ref start = dag_mul(dag, at.ref[VAR_X0], at.ref[VAR_Y0]);
+	Ref end = dag_mul(dag, at.ref[VAR_X1], at.ref[VAR_Y1]);
 	finish_room(dag, 0);
 	finish_next(dag, 0, 0, rat(1, 1));
 	dag_accumulate(dag, dag_sub(dag, start, end));

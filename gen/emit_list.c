@@ -238,9 +238,10 @@ static void add_types(Text *text, const Request *request)
 	for (int p = 0; p < precision_count; ++p) {
 		const char *real = precisions[p].real, *suffix = precisions[p].suffix;
 		if (request->precisions & precisions[p].bit)
-			text_add(text, "/* pad = from[0 .. rest-1], then zeros. */\n"
+			text_add(text, "/* from, or if fewer than width are left, pad: from[0 .. rest-1], then zeros. */\n"
 				"static inline const %s *ew_ring_pad%s("
 				"%s *pad, const %s *from, size_t rest, size_t width)\n{\n"
+				"\tif (rest >= width)\n\t\treturn from;\n"
 				"\tfor (size_t i = 0; i < width; ++i)\n"
 				"\t\tpad[i] = i < rest ? from[i] : 0;\n"
 				"\treturn pad;\n}\n", real, suffix, real, real);

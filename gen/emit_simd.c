@@ -217,7 +217,8 @@ static void add_stored_items(Shape *shape, int items)
 static void add_stored(Shape *shape)
 {
 	text_add(shape->text, "\t\tsize_t i = pass;\n");
-	add_stored_items(shape, 2);
+	if (!is_curve(shape->ring))
+		add_stored_items(shape, 2);
 	add_stored_items(shape, 1);
 }
 
@@ -268,7 +269,7 @@ void emit_vector_body(Text *text, const Ring *ring, const Target *target,
 		{ precision, 0, 2, 0, "acc%d", "acc%d = ", vector } };
 	int carried = vector->shift[0] && width == precision->lanes
 		&& program->cost.fma <= FEW_OPERATIONS;
-	int stored = !is_curve(ring) && vector->registers >= MANY_REGISTERS && ring->turns == 1
+	int stored = vector->registers >= MANY_REGISTERS && ring->turns == 1
 		&& program->cost.fma >= MANY_OPERATIONS
 		&& ring->accumulators + program->live > vector->registers;
 	text_add(text, "\tfor (size_t pass = 0; pass < step && pass < count; pass += %d) {\n", width);

@@ -213,6 +213,7 @@ enum { SPELL_C, SPELL_X86, SPELL_NEON, SPELLINGS };
 const char *op_spelling(int op, int how);    /* how: a column of ops.def */
 
 Dag *dag_new(const char *scheme);
+/* Calls that build nodes must not be arguments of one call: compilers evaluate them in any order. */
 Ref  dag_node(Dag *dag, int op, Ref a, Ref b, Ref c);
 Ref  dag_input(Dag *dag, Mono input);        /* a variable or an accumulator */
 Ref  dag_var(Dag *dag, int var);
@@ -222,6 +223,7 @@ Ref  dag_add(Dag *dag, Ref a, Ref b);        /* the smart constructors drop 0 an
 Ref  dag_sub(Dag *dag, Ref a, Ref b);
 Ref  dag_mul(Dag *dag, Ref a, Ref b);
 Ref  dag_scale(Dag *dag, Rat factor, Ref a);
+Ref  dag_div(Dag *dag, Ref a, Ref b);
 Ref  dag_unary(Dag *dag, int op, Ref a);
 Ref  dag_choose(Dag *dag, Ref a, Ref positive, Ref otherwise);   /* by the sign of a */
 Ref  dag_name(Dag *dag, Ref a, const char *name);   /* the first name given stays; returns a */

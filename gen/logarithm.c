@@ -11,8 +11,10 @@
 Ref series_value(Dag *dag, Series series, Ref x)
 {
 	Ref sum = dag_const(dag, series.coef[series.count - 1]);
-	for (int i = series.count - 2; i >= 0; --i)
-		sum = dag_add(dag, dag_const(dag, series.coef[i]), dag_mul(dag, sum, x));
+	for (int i = series.count - 2; i >= 0; --i) {
+		Ref coef = dag_const(dag, series.coef[i]);
+		sum = dag_add(dag, coef, dag_mul(dag, sum, x));
+	}
 	return sum;
 }
 
@@ -23,7 +25,7 @@ Logarithm logarithm(Dag *dag, int is_float, Ref z, Ref tau)
 	Ref m = dag_name(dag, dag_unary(dag, OP_FRACTION, z), "m");
 	log.k = dag_name(dag, dag_unary(dag, OP_EXPONENT, z), "k");
 	Ref below = dag_sub(dag, m, one), above = dag_add(dag, m, one);
-	Ref v = dag_name(dag, dag_node(dag, OP_DIV, below, above, NONE), "v");
+	Ref v = dag_name(dag, dag_div(dag, below, above), "v");
 	Ref vv = dag_name(dag, dag_mul(dag, v, v), "vv");
 	Ref x = tau == NONE ? vv : dag_choose(dag, log.k, vv, tau);
 	log.series = dag_name(dag, series_value(dag, series_atanh(is_float), x), "series");

@@ -1,10 +1,17 @@
 /* schedule.c - a DAG becomes a straight-line program: an order of evaluation with live ranges.
  *
- * Two orders are tried: the order of construction, and depth first from the outputs, the operand
- * that needs more registers first (Sethi and Ullman 1970, exact for trees, a good guess for DAGs).
- * The one with fewer values alive at once is taken. Accumulators are not counted:
+ * Three orders are tried: the order of construction, and depth first from the outputs, the operand
+ * that needs more registers first (Sethi and Ullman 1970, exact for trees, a good guess for DAGs),
+ * once as the outputs stand and once, for sums over quadrature nodes, in rows: where they are all
+ * moments to a degree, those with the same power of x one after the other, since each is made of
+ * the products of the one before.
+ * The one with the fewest values alive at once is taken. Where they do not fit into registers
+ * anyway, rows may have an eighth more: they need no partial sums, which would be stored and loaded
+ * again for every node of a quadrature. Accumulators are not counted:
  * their place is up to the kernel. */
 #include "gen.h"
+
+enum { REGISTERS = 32 };           /* the most that a target has */
 
 static int is_operation(const Node *node)
 {
@@ -91,14 +98,31 @@ static void measure(Program *program)
 	}
 }
 
-static Program ordered(const Dag *dag, int depth_first)
+/* All outputs in rows of x^m, x^m y, x^m y^2, ...; as they stand if they are no triangle. */
+static int *in_rows(int outs)
+{
+	int *order = allocate((size_t)outs * sizeof *order), count = 0, degree = 0;
+	while ((degree + 1) * (degree + 2) / 2 < outs)
+		++degree;
+	if ((degree + 1) * (degree + 2) / 2 == outs)
+		for (int m = 0; m <= degree; ++m)
+			for (int n = 0; n <= degree - m; ++n)
+				order[count++] = (m + n) * (m + n + 1) / 2 + n;
+	for (; count < outs; ++count)
+		order[count] = count;
+	return order;
+}
+
+typedef enum { BUILT, DEEP, ROWS } Order;
+
+static Program ordered(const Dag *dag, Order order)
 {
 	Program program = { .dag = dag, .order = allocate((size_t)dag->count * sizeof(Ref)) };
-	const int *uses = dag_uses(dag), *need = needs(dag);
+	const int *uses = dag_uses(dag), *need = needs(dag), *row = in_rows(dag->outs);
 	unsigned char *done = allocate((size_t)dag->count);
-	for (int k = 0; k < dag->outs && depth_first; ++k)
-		visit(&program, need, done, dag->out[k]);
-	for (int i = 0; i < dag->count && !depth_first; ++i)
+	for (int k = 0; k < dag->outs && order != BUILT; ++k)
+		visit(&program, need, done, dag->out[order == ROWS ? row[k] : k]);
+	for (int i = 0; i < dag->count && order == BUILT; ++i)
 		if (uses[i] && is_operation(&dag->node[i]))
 			program.order[program.count++] = (Ref)i;
 	measure(&program);
@@ -107,8 +131,13 @@ static Program ordered(const Dag *dag, int depth_first)
 
 Program schedule(const Dag *dag)
 {
-	Program built = ordered(dag, 0), deep = ordered(dag, 1);
-	return deep.live <= built.live ? deep : built;
+	Program built = ordered(dag, BUILT), deep = ordered(dag, DEEP);
+	Program best = deep.live <= built.live ? deep : built;
+	if (dag->proof == PROOF_POLYNOMIAL)
+		return best;
+	Program rows = ordered(dag, ROWS);
+	int most = best.live <= REGISTERS ? best.live - 1 : best.live + best.live / 8;
+	return rows.live <= most ? rows : best;
 }
 
 void program_dump(Text *text, const Program *program)

@@ -21,53 +21,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 {
 	(void)origin;
 	for (size_t pass = 0; pass < step && pass < count; pass += 8) {
-		__m512d acc0 = _mm512_loadu_pd(sum + pass);
-		__m512d acc1 = _mm512_loadu_pd(sum + 8 + pass);
-		__m512d acc2 = _mm512_loadu_pd(sum + 16 + pass);
-		__m512d acc3 = _mm512_loadu_pd(sum + 24 + pass);
-		__m512d acc4 = _mm512_loadu_pd(sum + 32 + pass);
-		__m512d acc5 = _mm512_loadu_pd(sum + 40 + pass);
-		__m512d acc6 = _mm512_loadu_pd(sum + 48 + pass);
-		__m512d acc7 = _mm512_loadu_pd(sum + 56 + pass);
-		__m512d acc8 = _mm512_loadu_pd(sum + 64 + pass);
-		__m512d acc9 = _mm512_loadu_pd(sum + 72 + pass);
-		__m512d acc10 = _mm512_loadu_pd(sum + 80 + pass);
-		__m512d acc11 = _mm512_loadu_pd(sum + 88 + pass);
-		__m512d acc12 = _mm512_loadu_pd(sum + 96 + pass);
-		__m512d acc13 = _mm512_loadu_pd(sum + 104 + pass);
-		__m512d acc14 = _mm512_loadu_pd(sum + 112 + pass);
-		__m512d acc15 = _mm512_loadu_pd(sum + 120 + pass);
-		__m512d acc16 = _mm512_loadu_pd(sum + 128 + pass);
-		__m512d acc17 = _mm512_loadu_pd(sum + 136 + pass);
-		__m512d acc18 = _mm512_loadu_pd(sum + 144 + pass);
-		__m512d acc19 = _mm512_loadu_pd(sum + 152 + pass);
-		__m512d acc20 = _mm512_loadu_pd(sum + 160 + pass);
-		__m512d acc21 = _mm512_loadu_pd(sum + 168 + pass);
-		__m512d acc22 = _mm512_loadu_pd(sum + 176 + pass);
-		__m512d acc23 = _mm512_loadu_pd(sum + 184 + pass);
-		__m512d acc24 = _mm512_loadu_pd(sum + 192 + pass);
-		__m512d acc25 = _mm512_loadu_pd(sum + 200 + pass);
-		__m512d acc26 = _mm512_loadu_pd(sum + 208 + pass);
-		__m512d acc27 = _mm512_loadu_pd(sum + 216 + pass);
-		__m512d acc28 = _mm512_loadu_pd(sum + 224 + pass);
-		__m512d acc29 = _mm512_loadu_pd(sum + 232 + pass);
-		__m512d acc30 = _mm512_loadu_pd(sum + 240 + pass);
-		__m512d acc31 = _mm512_loadu_pd(sum + 248 + pass);
-		__m512d acc32 = _mm512_loadu_pd(sum + 256 + pass);
-		__m512d acc33 = _mm512_loadu_pd(sum + 264 + pass);
-		__m512d acc34 = _mm512_loadu_pd(sum + 272 + pass);
-		__m512d acc35 = _mm512_loadu_pd(sum + 280 + pass);
-		__m512d acc36 = _mm512_loadu_pd(sum + 288 + pass);
-		__m512d acc37 = _mm512_loadu_pd(sum + 296 + pass);
-		__m512d acc38 = _mm512_loadu_pd(sum + 304 + pass);
-		__m512d acc39 = _mm512_loadu_pd(sum + 312 + pass);
-		__m512d acc40 = _mm512_loadu_pd(sum + 320 + pass);
-		__m512d acc41 = _mm512_loadu_pd(sum + 328 + pass);
-		__m512d acc42 = _mm512_loadu_pd(sum + 336 + pass);
-		__m512d acc43 = _mm512_loadu_pd(sum + 344 + pass);
-		__m512d acc44 = _mm512_loadu_pd(sum + 352 + pass);
 		size_t i = pass;
 		for (; i < count; i += step) {
+			EW_HIDE(sum);
 			const size_t rest = count - i;
 			const __mmask8 mask = EW_CAST(__mmask8, rest < 8 ? (1u << rest) - 1 : 0xffu);
 			const __m512d x0 = _mm512_maskz_loadu_pd(mask, x + i);
@@ -197,7 +153,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 				t89);
 			const __m512d t91 = _mm512_add_pd(t90, t86);
 			const __m512d t92 = _mm512_mul_pd(t91, t31);
+			__m512d acc0 = _mm512_loadu_pd(sum + pass);
 			acc0 = _mm512_add_pd(acc0, t92);
+			_mm512_storeu_pd(sum + pass, acc0);
 			const __m512d t93 = _mm512_mul_pd(top, top);
 			const __m512d t94 = _mm512_mul_pd(_mm512_set1_pd(2.0), t93);
 			const __m512d t95 = _mm512_mul_pd(area, t94);
@@ -242,13 +200,17 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t122 = _mm512_add_pd(x0, x2);
 			const __m512d t123 = _mm512_mul_pd(_mm512_set1_pd(0.5), t122);
 			const __m512d t124 = _mm512_fmadd_pd(t123, t92, t121);
+			__m512d acc1 = _mm512_loadu_pd(sum + 8 + pass);
 			acc1 = _mm512_add_pd(acc1, t124);
+			_mm512_storeu_pd(sum + 8 + pass, acc1);
 			const __m512d t125 = _mm512_mul_pd(_mm512_set1_pd(0.5), t25);
 			const __m512d t126 = _mm512_mul_pd(t125, t119);
 			const __m512d t127 = _mm512_add_pd(y0, y2);
 			const __m512d t128 = _mm512_mul_pd(_mm512_set1_pd(0.5), t127);
 			const __m512d t129 = _mm512_fmadd_pd(t128, t92, t126);
+			__m512d acc2 = _mm512_loadu_pd(sum + 16 + pass);
 			acc2 = _mm512_add_pd(acc2, t129);
+			_mm512_storeu_pd(sum + 16 + pass, acc2);
 			const __m512d t130 = _mm512_mul_pd(_mm512_set1_pd(0x1.fb75dfabf94dap-1),
 				t34);
 			const __m512d t131 = _mm512_mul_pd(t36, t130);
@@ -345,7 +307,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t199 = _mm512_fmadd_pd(t120, t198, t170);
 			const __m512d t200 = _mm512_fmadd_pd(t123, t121, t199);
 			const __m512d t201 = _mm512_fmadd_pd(t123, t124, t200);
+			__m512d acc3 = _mm512_loadu_pd(sum + 24 + pass);
 			acc3 = _mm512_add_pd(acc3, t201);
+			_mm512_storeu_pd(sum + 24 + pass, acc3);
 			const __m512d t202 = _mm512_mul_pd(_mm512_set1_pd(0.5), t10);
 			const __m512d t203 = _mm512_mul_pd(t202, t167);
 			const __m512d t204 = _mm512_mul_pd(t168, t203);
@@ -353,12 +317,16 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t206 = _mm512_fmadd_pd(t120, t205, t204);
 			const __m512d t207 = _mm512_fmadd_pd(t123, t126, t206);
 			const __m512d t208 = _mm512_fmadd_pd(t128, t124, t207);
+			__m512d acc4 = _mm512_loadu_pd(sum + 32 + pass);
 			acc4 = _mm512_add_pd(acc4, t208);
+			_mm512_storeu_pd(sum + 32 + pass, acc4);
 			const __m512d t209 = _mm512_mul_pd(t202, t203);
 			const __m512d t210 = _mm512_fmadd_pd(t125, t205, t209);
 			const __m512d t211 = _mm512_fmadd_pd(t128, t126, t210);
 			const __m512d t212 = _mm512_fmadd_pd(t128, t129, t211);
+			__m512d acc5 = _mm512_loadu_pd(sum + 40 + pass);
 			acc5 = _mm512_add_pd(acc5, t212);
+			_mm512_storeu_pd(sum + 40 + pass, acc5);
 			const __m512d t213 = _mm512_mul_pd(_mm512_set1_pd(0x1.22881501ac972p-7),
 				t131);
 			const __m512d t214 = _mm512_mul_pd(_mm512_set1_pd(0x1.79e08e5e86b5ep-5),
@@ -448,7 +416,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t275 = _mm512_fmadd_pd(t123, t199, t274);
 			const __m512d t276 = _mm512_fmadd_pd(t123, t200, t275);
 			const __m512d t277 = _mm512_fmadd_pd(t123, t201, t276);
+			__m512d acc6 = _mm512_loadu_pd(sum + 48 + pass);
 			acc6 = _mm512_add_pd(acc6, t277);
+			_mm512_storeu_pd(sum + 48 + pass, acc6);
 			const __m512d t278 = _mm512_mul_pd(t202, t238);
 			const __m512d t279 = _mm512_mul_pd(t125, t238);
 			const __m512d t280 = _mm512_mul_pd(t168, t279);
@@ -461,7 +431,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t287 = _mm512_fmadd_pd(t123, t206, t286);
 			const __m512d t288 = _mm512_fmadd_pd(t123, t207, t287);
 			const __m512d t289 = _mm512_fmadd_pd(t128, t201, t288);
+			__m512d acc7 = _mm512_loadu_pd(sum + 56 + pass);
 			acc7 = _mm512_add_pd(acc7, t289);
+			_mm512_storeu_pd(sum + 56 + pass, acc7);
 			const __m512d t290 = _mm512_mul_pd(t202, t279);
 			const __m512d t291 = _mm512_fmadd_pd(t125, t278, t290);
 			const __m512d t292 = _mm512_mul_pd(t168, t291);
@@ -471,13 +443,17 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t296 = _mm512_fmadd_pd(t123, t210, t295);
 			const __m512d t297 = _mm512_fmadd_pd(t128, t207, t296);
 			const __m512d t298 = _mm512_fmadd_pd(t128, t208, t297);
+			__m512d acc8 = _mm512_loadu_pd(sum + 64 + pass);
 			acc8 = _mm512_add_pd(acc8, t298);
+			_mm512_storeu_pd(sum + 64 + pass, acc8);
 			const __m512d t299 = _mm512_mul_pd(t202, t291);
 			const __m512d t300 = _mm512_fmadd_pd(t125, t294, t299);
 			const __m512d t301 = _mm512_fmadd_pd(t128, t210, t300);
 			const __m512d t302 = _mm512_fmadd_pd(t128, t211, t301);
 			const __m512d t303 = _mm512_fmadd_pd(t128, t212, t302);
+			__m512d acc9 = _mm512_loadu_pd(sum + 72 + pass);
 			acc9 = _mm512_add_pd(acc9, t303);
+			_mm512_storeu_pd(sum + 72 + pass, acc9);
 			const __m512d t304 = _mm512_mul_pd(_mm512_set1_pd(0x1.22881501ac972p-7),
 				t213);
 			const __m512d t305 = _mm512_mul_pd(_mm512_set1_pd(0x1.79e08e5e86b5ep-5),
@@ -601,7 +577,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t400 = _mm512_fmadd_pd(t123, t275, t399);
 			const __m512d t401 = _mm512_fmadd_pd(t123, t276, t400);
 			const __m512d t402 = _mm512_fmadd_pd(t123, t277, t401);
+			__m512d acc10 = _mm512_loadu_pd(sum + 80 + pass);
 			acc10 = _mm512_add_pd(acc10, t402);
+			_mm512_storeu_pd(sum + 80 + pass, acc10);
 			const __m512d t403 = _mm512_mul_pd(t202, t329);
 			const __m512d t404 = _mm512_mul_pd(t125, t329);
 			const __m512d t405 = _mm512_mul_pd(t168, t404);
@@ -622,7 +600,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t420 = _mm512_fmadd_pd(t123, t287, t419);
 			const __m512d t421 = _mm512_fmadd_pd(t123, t288, t420);
 			const __m512d t422 = _mm512_fmadd_pd(t128, t277, t421);
+			__m512d acc11 = _mm512_loadu_pd(sum + 88 + pass);
 			acc11 = _mm512_add_pd(acc11, t422);
+			_mm512_storeu_pd(sum + 88 + pass, acc11);
 			const __m512d t423 = _mm512_mul_pd(t202, t404);
 			const __m512d t424 = _mm512_fmadd_pd(t125, t403, t423);
 			const __m512d t425 = _mm512_mul_pd(t202, t407);
@@ -639,7 +619,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t436 = _mm512_fmadd_pd(t123, t296, t435);
 			const __m512d t437 = _mm512_fmadd_pd(t128, t288, t436);
 			const __m512d t438 = _mm512_fmadd_pd(t128, t289, t437);
+			__m512d acc12 = _mm512_loadu_pd(sum + 96 + pass);
 			acc12 = _mm512_add_pd(acc12, t438);
+			_mm512_storeu_pd(sum + 96 + pass, acc12);
 			const __m512d t439 = _mm512_mul_pd(t202, t426);
 			const __m512d t440 = _mm512_fmadd_pd(t125, t424, t439);
 			const __m512d t441 = _mm512_mul_pd(t168, t440);
@@ -650,14 +632,18 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t446 = _mm512_fmadd_pd(t128, t296, t445);
 			const __m512d t447 = _mm512_fmadd_pd(t128, t297, t446);
 			const __m512d t448 = _mm512_fmadd_pd(t128, t298, t447);
+			__m512d acc13 = _mm512_loadu_pd(sum + 104 + pass);
 			acc13 = _mm512_add_pd(acc13, t448);
+			_mm512_storeu_pd(sum + 104 + pass, acc13);
 			const __m512d t449 = _mm512_mul_pd(t202, t440);
 			const __m512d t450 = _mm512_fmadd_pd(t125, t443, t449);
 			const __m512d t451 = _mm512_fmadd_pd(t128, t300, t450);
 			const __m512d t452 = _mm512_fmadd_pd(t128, t301, t451);
 			const __m512d t453 = _mm512_fmadd_pd(t128, t302, t452);
 			const __m512d t454 = _mm512_fmadd_pd(t128, t303, t453);
+			__m512d acc14 = _mm512_loadu_pd(sum + 112 + pass);
 			acc14 = _mm512_add_pd(acc14, t454);
+			_mm512_storeu_pd(sum + 112 + pass, acc14);
 			const __m512d t455 = _mm512_mul_pd(_mm512_set1_pd(0x1.22881501ac972p-7),
 				t304);
 			const __m512d t456 = _mm512_mul_pd(_mm512_set1_pd(0x1.79e08e5e86b5ep-5),
@@ -803,7 +789,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t561 = _mm512_fmadd_pd(t123, t400, t560);
 			const __m512d t562 = _mm512_fmadd_pd(t123, t401, t561);
 			const __m512d t563 = _mm512_fmadd_pd(t123, t402, t562);
+			__m512d acc15 = _mm512_loadu_pd(sum + 120 + pass);
 			acc15 = _mm512_add_pd(acc15, t563);
+			_mm512_storeu_pd(sum + 120 + pass, acc15);
 			const __m512d t564 = _mm512_mul_pd(t202, t480);
 			const __m512d t565 = _mm512_mul_pd(t125, t480);
 			const __m512d t566 = _mm512_mul_pd(t168, t565);
@@ -834,7 +822,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t591 = _mm512_fmadd_pd(t123, t420, t590);
 			const __m512d t592 = _mm512_fmadd_pd(t123, t421, t591);
 			const __m512d t593 = _mm512_fmadd_pd(t128, t402, t592);
+			__m512d acc16 = _mm512_loadu_pd(sum + 128 + pass);
 			acc16 = _mm512_add_pd(acc16, t593);
+			_mm512_storeu_pd(sum + 128 + pass, acc16);
 			const __m512d t594 = _mm512_mul_pd(t202, t565);
 			const __m512d t595 = _mm512_fmadd_pd(t125, t564, t594);
 			const __m512d t596 = _mm512_mul_pd(t202, t568);
@@ -860,7 +850,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t616 = _mm512_fmadd_pd(t123, t436, t615);
 			const __m512d t617 = _mm512_fmadd_pd(t128, t421, t616);
 			const __m512d t618 = _mm512_fmadd_pd(t128, t422, t617);
+			__m512d acc17 = _mm512_loadu_pd(sum + 136 + pass);
 			acc17 = _mm512_add_pd(acc17, t618);
+			_mm512_storeu_pd(sum + 136 + pass, acc17);
 			const __m512d t619 = _mm512_mul_pd(t202, t597);
 			const __m512d t620 = _mm512_fmadd_pd(t125, t595, t619);
 			const __m512d t621 = _mm512_mul_pd(t202, t601);
@@ -878,7 +870,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t633 = _mm512_fmadd_pd(t128, t436, t632);
 			const __m512d t634 = _mm512_fmadd_pd(t128, t437, t633);
 			const __m512d t635 = _mm512_fmadd_pd(t128, t438, t634);
+			__m512d acc18 = _mm512_loadu_pd(sum + 144 + pass);
 			acc18 = _mm512_add_pd(acc18, t635);
+			_mm512_storeu_pd(sum + 144 + pass, acc18);
 			const __m512d t636 = _mm512_mul_pd(t202, t622);
 			const __m512d t637 = _mm512_fmadd_pd(t125, t620, t636);
 			const __m512d t638 = _mm512_mul_pd(t168, t637);
@@ -890,7 +884,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t644 = _mm512_fmadd_pd(t128, t446, t643);
 			const __m512d t645 = _mm512_fmadd_pd(t128, t447, t644);
 			const __m512d t646 = _mm512_fmadd_pd(t128, t448, t645);
+			__m512d acc19 = _mm512_loadu_pd(sum + 152 + pass);
 			acc19 = _mm512_add_pd(acc19, t646);
+			_mm512_storeu_pd(sum + 152 + pass, acc19);
 			const __m512d t647 = _mm512_mul_pd(t202, t637);
 			const __m512d t648 = _mm512_fmadd_pd(t125, t640, t647);
 			const __m512d t649 = _mm512_fmadd_pd(t128, t450, t648);
@@ -898,7 +894,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t651 = _mm512_fmadd_pd(t128, t452, t650);
 			const __m512d t652 = _mm512_fmadd_pd(t128, t453, t651);
 			const __m512d t653 = _mm512_fmadd_pd(t128, t454, t652);
+			__m512d acc20 = _mm512_loadu_pd(sum + 160 + pass);
 			acc20 = _mm512_add_pd(acc20, t653);
+			_mm512_storeu_pd(sum + 160 + pass, acc20);
 			const __m512d t654 = _mm512_mul_pd(_mm512_set1_pd(0x1.22881501ac972p-7),
 				t455);
 			const __m512d t655 = _mm512_mul_pd(_mm512_set1_pd(0x1.79e08e5e86b5ep-5),
@@ -1082,7 +1080,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t798 = _mm512_fmadd_pd(t123, t561, t797);
 			const __m512d t799 = _mm512_fmadd_pd(t123, t562, t798);
 			const __m512d t800 = _mm512_fmadd_pd(t123, t563, t799);
+			__m512d acc21 = _mm512_loadu_pd(sum + 168 + pass);
 			acc21 = _mm512_add_pd(acc21, t800);
+			_mm512_storeu_pd(sum + 168 + pass, acc21);
 			const __m512d t801 = _mm512_mul_pd(t202, t679);
 			const __m512d t802 = _mm512_mul_pd(t125, t679);
 			const __m512d t803 = _mm512_mul_pd(t168, t802);
@@ -1125,7 +1125,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t840 = _mm512_fmadd_pd(t123, t591, t839);
 			const __m512d t841 = _mm512_fmadd_pd(t123, t592, t840);
 			const __m512d t842 = _mm512_fmadd_pd(t128, t563, t841);
+			__m512d acc22 = _mm512_loadu_pd(sum + 176 + pass);
 			acc22 = _mm512_add_pd(acc22, t842);
+			_mm512_storeu_pd(sum + 176 + pass, acc22);
 			const __m512d t843 = _mm512_mul_pd(t202, t802);
 			const __m512d t844 = _mm512_fmadd_pd(t125, t801, t843);
 			const __m512d t845 = _mm512_mul_pd(t202, t805);
@@ -1162,7 +1164,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t876 = _mm512_fmadd_pd(t123, t616, t875);
 			const __m512d t877 = _mm512_fmadd_pd(t128, t592, t876);
 			const __m512d t878 = _mm512_fmadd_pd(t128, t593, t877);
+			__m512d acc23 = _mm512_loadu_pd(sum + 184 + pass);
 			acc23 = _mm512_add_pd(acc23, t878);
+			_mm512_storeu_pd(sum + 184 + pass, acc23);
 			const __m512d t879 = _mm512_mul_pd(t202, t846);
 			const __m512d t880 = _mm512_fmadd_pd(t125, t844, t879);
 			const __m512d t881 = _mm512_mul_pd(t202, t850);
@@ -1189,7 +1193,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t902 = _mm512_fmadd_pd(t128, t616, t901);
 			const __m512d t903 = _mm512_fmadd_pd(t128, t617, t902);
 			const __m512d t904 = _mm512_fmadd_pd(t128, t618, t903);
+			__m512d acc24 = _mm512_loadu_pd(sum + 192 + pass);
 			acc24 = _mm512_add_pd(acc24, t904);
+			_mm512_storeu_pd(sum + 192 + pass, acc24);
 			const __m512d t905 = _mm512_mul_pd(t202, t882);
 			const __m512d t906 = _mm512_fmadd_pd(t125, t880, t905);
 			const __m512d t907 = _mm512_mul_pd(t202, t886);
@@ -1208,7 +1214,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t920 = _mm512_fmadd_pd(t128, t633, t919);
 			const __m512d t921 = _mm512_fmadd_pd(t128, t634, t920);
 			const __m512d t922 = _mm512_fmadd_pd(t128, t635, t921);
+			__m512d acc25 = _mm512_loadu_pd(sum + 200 + pass);
 			acc25 = _mm512_add_pd(acc25, t922);
+			_mm512_storeu_pd(sum + 200 + pass, acc25);
 			const __m512d t923 = _mm512_mul_pd(t202, t908);
 			const __m512d t924 = _mm512_fmadd_pd(t125, t906, t923);
 			const __m512d t925 = _mm512_mul_pd(t168, t924);
@@ -1221,7 +1229,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t932 = _mm512_fmadd_pd(t128, t644, t931);
 			const __m512d t933 = _mm512_fmadd_pd(t128, t645, t932);
 			const __m512d t934 = _mm512_fmadd_pd(t128, t646, t933);
+			__m512d acc26 = _mm512_loadu_pd(sum + 208 + pass);
 			acc26 = _mm512_add_pd(acc26, t934);
+			_mm512_storeu_pd(sum + 208 + pass, acc26);
 			const __m512d t935 = _mm512_mul_pd(t202, t924);
 			const __m512d t936 = _mm512_fmadd_pd(t125, t927, t935);
 			const __m512d t937 = _mm512_fmadd_pd(t128, t648, t936);
@@ -1230,7 +1240,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t940 = _mm512_fmadd_pd(t128, t651, t939);
 			const __m512d t941 = _mm512_fmadd_pd(t128, t652, t940);
 			const __m512d t942 = _mm512_fmadd_pd(t128, t653, t941);
+			__m512d acc27 = _mm512_loadu_pd(sum + 216 + pass);
 			acc27 = _mm512_add_pd(acc27, t942);
+			_mm512_storeu_pd(sum + 216 + pass, acc27);
 			const __m512d t943 = _mm512_mul_pd(_mm512_set1_pd(0x1.22881501ac972p-7),
 				t654);
 			const __m512d t944 = _mm512_mul_pd(_mm512_set1_pd(0x1.79e08e5e86b5ep-5),
@@ -1440,7 +1452,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1101 = _mm512_fmadd_pd(t123, t798, t1100);
 			const __m512d t1102 = _mm512_fmadd_pd(t123, t799, t1101);
 			const __m512d t1103 = _mm512_fmadd_pd(t123, t800, t1102);
+			__m512d acc28 = _mm512_loadu_pd(sum + 224 + pass);
 			acc28 = _mm512_add_pd(acc28, t1103);
+			_mm512_storeu_pd(sum + 224 + pass, acc28);
 			const __m512d t1104 = _mm512_mul_pd(t202, t968);
 			const __m512d t1105 = _mm512_mul_pd(t125, t968);
 			const __m512d t1106 = _mm512_mul_pd(t168, t1105);
@@ -1497,7 +1511,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1157 = _mm512_fmadd_pd(t123, t840, t1156);
 			const __m512d t1158 = _mm512_fmadd_pd(t123, t841, t1157);
 			const __m512d t1159 = _mm512_fmadd_pd(t128, t800, t1158);
+			__m512d acc29 = _mm512_loadu_pd(sum + 232 + pass);
 			acc29 = _mm512_add_pd(acc29, t1159);
+			_mm512_storeu_pd(sum + 232 + pass, acc29);
 			const __m512d t1160 = _mm512_mul_pd(t202, t1105);
 			const __m512d t1161 = _mm512_fmadd_pd(t125, t1104, t1160);
 			const __m512d t1162 = _mm512_mul_pd(t202, t1108);
@@ -1547,7 +1563,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1206 = _mm512_fmadd_pd(t123, t876, t1205);
 			const __m512d t1207 = _mm512_fmadd_pd(t128, t841, t1206);
 			const __m512d t1208 = _mm512_fmadd_pd(t128, t842, t1207);
+			__m512d acc30 = _mm512_loadu_pd(sum + 240 + pass);
 			acc30 = _mm512_add_pd(acc30, t1208);
+			_mm512_storeu_pd(sum + 240 + pass, acc30);
 			const __m512d t1209 = _mm512_mul_pd(t202, t1163);
 			const __m512d t1210 = _mm512_fmadd_pd(t125, t1161, t1209);
 			const __m512d t1211 = _mm512_mul_pd(t202, t1167);
@@ -1585,7 +1603,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1243 = _mm512_fmadd_pd(t128, t876, t1242);
 			const __m512d t1244 = _mm512_fmadd_pd(t128, t877, t1243);
 			const __m512d t1245 = _mm512_fmadd_pd(t128, t878, t1244);
+			__m512d acc31 = _mm512_loadu_pd(sum + 248 + pass);
 			acc31 = _mm512_add_pd(acc31, t1245);
+			_mm512_storeu_pd(sum + 248 + pass, acc31);
 			const __m512d t1246 = _mm512_mul_pd(t202, t1212);
 			const __m512d t1247 = _mm512_fmadd_pd(t125, t1210, t1246);
 			const __m512d t1248 = _mm512_mul_pd(t202, t1216);
@@ -1613,7 +1633,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1270 = _mm512_fmadd_pd(t128, t902, t1269);
 			const __m512d t1271 = _mm512_fmadd_pd(t128, t903, t1270);
 			const __m512d t1272 = _mm512_fmadd_pd(t128, t904, t1271);
+			__m512d acc32 = _mm512_loadu_pd(sum + 256 + pass);
 			acc32 = _mm512_add_pd(acc32, t1272);
+			_mm512_storeu_pd(sum + 256 + pass, acc32);
 			const __m512d t1273 = _mm512_mul_pd(t202, t1249);
 			const __m512d t1274 = _mm512_fmadd_pd(t125, t1247, t1273);
 			const __m512d t1275 = _mm512_mul_pd(t202, t1253);
@@ -1633,7 +1655,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1289 = _mm512_fmadd_pd(t128, t920, t1288);
 			const __m512d t1290 = _mm512_fmadd_pd(t128, t921, t1289);
 			const __m512d t1291 = _mm512_fmadd_pd(t128, t922, t1290);
+			__m512d acc33 = _mm512_loadu_pd(sum + 264 + pass);
 			acc33 = _mm512_add_pd(acc33, t1291);
+			_mm512_storeu_pd(sum + 264 + pass, acc33);
 			const __m512d t1292 = _mm512_mul_pd(t202, t1276);
 			const __m512d t1293 = _mm512_fmadd_pd(t125, t1274, t1292);
 			const __m512d t1294 = _mm512_mul_pd(t168, t1293);
@@ -1647,7 +1671,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1302 = _mm512_fmadd_pd(t128, t932, t1301);
 			const __m512d t1303 = _mm512_fmadd_pd(t128, t933, t1302);
 			const __m512d t1304 = _mm512_fmadd_pd(t128, t934, t1303);
+			__m512d acc34 = _mm512_loadu_pd(sum + 272 + pass);
 			acc34 = _mm512_add_pd(acc34, t1304);
+			_mm512_storeu_pd(sum + 272 + pass, acc34);
 			const __m512d t1305 = _mm512_mul_pd(t202, t1293);
 			const __m512d t1306 = _mm512_fmadd_pd(t125, t1296, t1305);
 			const __m512d t1307 = _mm512_fmadd_pd(t128, t936, t1306);
@@ -1657,7 +1683,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1311 = _mm512_fmadd_pd(t128, t940, t1310);
 			const __m512d t1312 = _mm512_fmadd_pd(t128, t941, t1311);
 			const __m512d t1313 = _mm512_fmadd_pd(t128, t942, t1312);
+			__m512d acc35 = _mm512_loadu_pd(sum + 280 + pass);
 			acc35 = _mm512_add_pd(acc35, t1313);
+			_mm512_storeu_pd(sum + 280 + pass, acc35);
 			const __m512d t1314 = _mm512_mul_pd(_mm512_set1_pd(0x1.22881501ac972p-7),
 				t943);
 			const __m512d t1315 = _mm512_fmadd_pd(_mm512_set1_pd(0x1.79e08e5e86b5ep-5),
@@ -1854,7 +1882,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1459 = _mm512_fmadd_pd(t123, t1101, t1458);
 			const __m512d t1460 = _mm512_fmadd_pd(t123, t1102, t1459);
 			const __m512d t1461 = _mm512_fmadd_pd(t123, t1103, t1460);
+			__m512d acc36 = _mm512_loadu_pd(sum + 288 + pass);
 			acc36 = _mm512_add_pd(acc36, t1461);
+			_mm512_storeu_pd(sum + 288 + pass, acc36);
 			const __m512d t1462 = _mm512_mul_pd(t202, t1328);
 			const __m512d t1463 = _mm512_mul_pd(t125, t1328);
 			const __m512d t1464 = _mm512_mul_pd(t168, t1463);
@@ -1927,7 +1957,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1531 = _mm512_fmadd_pd(t123, t1157, t1530);
 			const __m512d t1532 = _mm512_fmadd_pd(t123, t1158, t1531);
 			const __m512d t1533 = _mm512_fmadd_pd(t128, t1103, t1532);
+			__m512d acc37 = _mm512_loadu_pd(sum + 296 + pass);
 			acc37 = _mm512_add_pd(acc37, t1533);
+			_mm512_storeu_pd(sum + 296 + pass, acc37);
 			const __m512d t1534 = _mm512_mul_pd(t202, t1463);
 			const __m512d t1535 = _mm512_fmadd_pd(t125, t1462, t1534);
 			const __m512d t1536 = _mm512_mul_pd(t202, t1466);
@@ -1992,7 +2024,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1595 = _mm512_fmadd_pd(t123, t1206, t1594);
 			const __m512d t1596 = _mm512_fmadd_pd(t128, t1158, t1595);
 			const __m512d t1597 = _mm512_fmadd_pd(t128, t1159, t1596);
+			__m512d acc38 = _mm512_loadu_pd(sum + 304 + pass);
 			acc38 = _mm512_add_pd(acc38, t1597);
+			_mm512_storeu_pd(sum + 304 + pass, acc38);
 			const __m512d t1598 = _mm512_mul_pd(t202, t1537);
 			const __m512d t1599 = _mm512_fmadd_pd(t125, t1535, t1598);
 			const __m512d t1600 = _mm512_mul_pd(t202, t1541);
@@ -2043,7 +2077,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1645 = _mm512_fmadd_pd(t128, t1206, t1644);
 			const __m512d t1646 = _mm512_fmadd_pd(t128, t1207, t1645);
 			const __m512d t1647 = _mm512_fmadd_pd(t128, t1208, t1646);
+			__m512d acc39 = _mm512_loadu_pd(sum + 312 + pass);
 			acc39 = _mm512_add_pd(acc39, t1647);
+			_mm512_storeu_pd(sum + 312 + pass, acc39);
 			const __m512d t1648 = _mm512_mul_pd(t202, t1601);
 			const __m512d t1649 = _mm512_fmadd_pd(t125, t1599, t1648);
 			const __m512d t1650 = _mm512_mul_pd(t202, t1605);
@@ -2082,7 +2118,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1683 = _mm512_fmadd_pd(t128, t1243, t1682);
 			const __m512d t1684 = _mm512_fmadd_pd(t128, t1244, t1683);
 			const __m512d t1685 = _mm512_fmadd_pd(t128, t1245, t1684);
+			__m512d acc40 = _mm512_loadu_pd(sum + 320 + pass);
 			acc40 = _mm512_add_pd(acc40, t1685);
+			_mm512_storeu_pd(sum + 320 + pass, acc40);
 			const __m512d t1686 = _mm512_mul_pd(t202, t1651);
 			const __m512d t1687 = _mm512_fmadd_pd(t125, t1649, t1686);
 			const __m512d t1688 = _mm512_mul_pd(t202, t1655);
@@ -2111,7 +2149,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1711 = _mm512_fmadd_pd(t128, t1270, t1710);
 			const __m512d t1712 = _mm512_fmadd_pd(t128, t1271, t1711);
 			const __m512d t1713 = _mm512_fmadd_pd(t128, t1272, t1712);
+			__m512d acc41 = _mm512_loadu_pd(sum + 328 + pass);
 			acc41 = _mm512_add_pd(acc41, t1713);
+			_mm512_storeu_pd(sum + 328 + pass, acc41);
 			const __m512d t1714 = _mm512_mul_pd(t202, t1689);
 			const __m512d t1715 = _mm512_fmadd_pd(t125, t1687, t1714);
 			const __m512d t1716 = _mm512_mul_pd(t202, t1693);
@@ -2132,7 +2172,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1731 = _mm512_fmadd_pd(t128, t1289, t1730);
 			const __m512d t1732 = _mm512_fmadd_pd(t128, t1290, t1731);
 			const __m512d t1733 = _mm512_fmadd_pd(t128, t1291, t1732);
+			__m512d acc42 = _mm512_loadu_pd(sum + 336 + pass);
 			acc42 = _mm512_add_pd(acc42, t1733);
+			_mm512_storeu_pd(sum + 336 + pass, acc42);
 			const __m512d t1734 = _mm512_mul_pd(t202, t1717);
 			const __m512d t1735 = _mm512_fmadd_pd(t125, t1715, t1734);
 			const __m512d t1736 = _mm512_mul_pd(t168, t1735);
@@ -2147,7 +2189,9 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1745 = _mm512_fmadd_pd(t128, t1302, t1744);
 			const __m512d t1746 = _mm512_fmadd_pd(t128, t1303, t1745);
 			const __m512d t1747 = _mm512_fmadd_pd(t128, t1304, t1746);
+			__m512d acc43 = _mm512_loadu_pd(sum + 344 + pass);
 			acc43 = _mm512_add_pd(acc43, t1747);
+			_mm512_storeu_pd(sum + 344 + pass, acc43);
 			const __m512d t1748 = _mm512_mul_pd(t202, t1735);
 			const __m512d t1749 = _mm512_fmadd_pd(t125, t1738, t1748);
 			const __m512d t1750 = _mm512_fmadd_pd(t128, t1306, t1749);
@@ -2158,53 +2202,10 @@ EW_ATTRIBUTE_AVX512 void ew_ring_conic_8_avx512(
 			const __m512d t1755 = _mm512_fmadd_pd(t128, t1311, t1754);
 			const __m512d t1756 = _mm512_fmadd_pd(t128, t1312, t1755);
 			const __m512d t1757 = _mm512_fmadd_pd(t128, t1313, t1756);
+			__m512d acc44 = _mm512_loadu_pd(sum + 352 + pass);
 			acc44 = _mm512_add_pd(acc44, t1757);
+			_mm512_storeu_pd(sum + 352 + pass, acc44);
 		}
-		_mm512_storeu_pd(sum + pass, acc0);
-		_mm512_storeu_pd(sum + 8 + pass, acc1);
-		_mm512_storeu_pd(sum + 16 + pass, acc2);
-		_mm512_storeu_pd(sum + 24 + pass, acc3);
-		_mm512_storeu_pd(sum + 32 + pass, acc4);
-		_mm512_storeu_pd(sum + 40 + pass, acc5);
-		_mm512_storeu_pd(sum + 48 + pass, acc6);
-		_mm512_storeu_pd(sum + 56 + pass, acc7);
-		_mm512_storeu_pd(sum + 64 + pass, acc8);
-		_mm512_storeu_pd(sum + 72 + pass, acc9);
-		_mm512_storeu_pd(sum + 80 + pass, acc10);
-		_mm512_storeu_pd(sum + 88 + pass, acc11);
-		_mm512_storeu_pd(sum + 96 + pass, acc12);
-		_mm512_storeu_pd(sum + 104 + pass, acc13);
-		_mm512_storeu_pd(sum + 112 + pass, acc14);
-		_mm512_storeu_pd(sum + 120 + pass, acc15);
-		_mm512_storeu_pd(sum + 128 + pass, acc16);
-		_mm512_storeu_pd(sum + 136 + pass, acc17);
-		_mm512_storeu_pd(sum + 144 + pass, acc18);
-		_mm512_storeu_pd(sum + 152 + pass, acc19);
-		_mm512_storeu_pd(sum + 160 + pass, acc20);
-		_mm512_storeu_pd(sum + 168 + pass, acc21);
-		_mm512_storeu_pd(sum + 176 + pass, acc22);
-		_mm512_storeu_pd(sum + 184 + pass, acc23);
-		_mm512_storeu_pd(sum + 192 + pass, acc24);
-		_mm512_storeu_pd(sum + 200 + pass, acc25);
-		_mm512_storeu_pd(sum + 208 + pass, acc26);
-		_mm512_storeu_pd(sum + 216 + pass, acc27);
-		_mm512_storeu_pd(sum + 224 + pass, acc28);
-		_mm512_storeu_pd(sum + 232 + pass, acc29);
-		_mm512_storeu_pd(sum + 240 + pass, acc30);
-		_mm512_storeu_pd(sum + 248 + pass, acc31);
-		_mm512_storeu_pd(sum + 256 + pass, acc32);
-		_mm512_storeu_pd(sum + 264 + pass, acc33);
-		_mm512_storeu_pd(sum + 272 + pass, acc34);
-		_mm512_storeu_pd(sum + 280 + pass, acc35);
-		_mm512_storeu_pd(sum + 288 + pass, acc36);
-		_mm512_storeu_pd(sum + 296 + pass, acc37);
-		_mm512_storeu_pd(sum + 304 + pass, acc38);
-		_mm512_storeu_pd(sum + 312 + pass, acc39);
-		_mm512_storeu_pd(sum + 320 + pass, acc40);
-		_mm512_storeu_pd(sum + 328 + pass, acc41);
-		_mm512_storeu_pd(sum + 336 + pass, acc42);
-		_mm512_storeu_pd(sum + 344 + pass, acc43);
-		_mm512_storeu_pd(sum + 352 + pass, acc44);
 	}
 }
 
@@ -2229,24 +2230,24 @@ EW_ATTRIBUTE_AVX512 void ew_ring_cubic_0_avx512(
 			const __m512d y2 = _mm512_maskz_loadu_pd(mask, y + i + 2 * reach);
 			const __m512d x3 = _mm512_maskz_loadu_pd(mask, x + i + 3 * reach);
 			const __m512d y3 = _mm512_maskz_loadu_pd(mask, y + i + 3 * reach);
-			const __m512d t0 = _mm512_mul_pd(x1, y0);
-			const __m512d t1 = _mm512_mul_pd(x0, y1);
-			const __m512d c01 = _mm512_sub_pd(t1, t0);
-			const __m512d t2 = _mm512_mul_pd(x2, y0);
-			const __m512d t3 = _mm512_mul_pd(x0, y2);
-			const __m512d c02 = _mm512_sub_pd(t3, t2);
-			const __m512d t4 = _mm512_mul_pd(x2, y1);
-			const __m512d t5 = _mm512_mul_pd(x1, y2);
-			const __m512d c12 = _mm512_sub_pd(t5, t4);
-			const __m512d t6 = _mm512_mul_pd(x3, y0);
-			const __m512d t7 = _mm512_mul_pd(x0, y3);
-			const __m512d c03 = _mm512_sub_pd(t7, t6);
-			const __m512d t8 = _mm512_mul_pd(x3, y1);
-			const __m512d t9 = _mm512_mul_pd(x1, y3);
-			const __m512d c13 = _mm512_sub_pd(t9, t8);
-			const __m512d t10 = _mm512_mul_pd(x3, y2);
-			const __m512d t11 = _mm512_mul_pd(x2, y3);
-			const __m512d c23 = _mm512_sub_pd(t11, t10);
+			const __m512d t0 = _mm512_mul_pd(x0, y1);
+			const __m512d t1 = _mm512_mul_pd(x1, y0);
+			const __m512d c01 = _mm512_sub_pd(t0, t1);
+			const __m512d t2 = _mm512_mul_pd(x0, y2);
+			const __m512d t3 = _mm512_mul_pd(x2, y0);
+			const __m512d c02 = _mm512_sub_pd(t2, t3);
+			const __m512d t4 = _mm512_mul_pd(x1, y2);
+			const __m512d t5 = _mm512_mul_pd(x2, y1);
+			const __m512d c12 = _mm512_sub_pd(t4, t5);
+			const __m512d t6 = _mm512_mul_pd(x0, y3);
+			const __m512d t7 = _mm512_mul_pd(x3, y0);
+			const __m512d c03 = _mm512_sub_pd(t6, t7);
+			const __m512d t8 = _mm512_mul_pd(x1, y3);
+			const __m512d t9 = _mm512_mul_pd(x3, y1);
+			const __m512d c13 = _mm512_sub_pd(t8, t9);
+			const __m512d t10 = _mm512_mul_pd(x2, y3);
+			const __m512d t11 = _mm512_mul_pd(x3, y2);
+			const __m512d c23 = _mm512_sub_pd(t10, t11);
 			const __m512d t12 = _mm512_add_pd(c02, c13);
 			const __m512d t13 = _mm512_add_pd(c12, t12);
 			const __m512d t14 = _mm512_fmadd_pd(_mm512_set1_pd(3.0), t13, c03);
@@ -2281,10 +2282,10 @@ EW_ATTRIBUTE_AVX512 void ew_ring_cubic_1_avx512(
 			const __m512d y2 = _mm512_maskz_loadu_pd(mask, y + i + 2 * reach);
 			const __m512d x3 = _mm512_maskz_loadu_pd(mask, x + i + 3 * reach);
 			const __m512d y3 = _mm512_maskz_loadu_pd(mask, y + i + 3 * reach);
-			const __m512d t0 = _mm512_add_pd(x0, x3);
-			const __m512d t1 = _mm512_add_pd(x1, x2);
-			const __m512d t2 = _mm512_mul_pd(_mm512_set1_pd(0.375), t1);
-			const __m512d x_0 = _mm512_fmadd_pd(_mm512_set1_pd(0.125), t0, t2);
+			const __m512d t0 = _mm512_add_pd(x1, x2);
+			const __m512d t1 = _mm512_add_pd(x0, x3);
+			const __m512d t2 = _mm512_mul_pd(_mm512_set1_pd(0.125), t1);
+			const __m512d x_0 = _mm512_fmadd_pd(_mm512_set1_pd(0.375), t0, t2);
 			const __m512d t3 = _mm512_sub_pd(y3, y0);
 			const __m512d t4 = _mm512_mul_pd(_mm512_set1_pd(0.125), t3);
 			const __m512d t5 = _mm512_sub_pd(y2, y1);
@@ -2296,18 +2297,18 @@ EW_ATTRIBUTE_AVX512 void ew_ring_cubic_1_avx512(
 			const __m512d t10 = _mm512_sub_pd(x2, x1);
 			const __m512d t11 = _mm512_mul_pd(_mm512_set1_pd(0.375), t10);
 			const __m512d x_3 = _mm512_sub_pd(t9, t11);
-			const __m512d t12 = _mm512_add_pd(y0, y3);
-			const __m512d t13 = _mm512_add_pd(y1, y2);
-			const __m512d t14 = _mm512_mul_pd(_mm512_set1_pd(0.375), t13);
-			const __m512d y_0 = _mm512_fmadd_pd(_mm512_set1_pd(0.125), t12, t14);
+			const __m512d t12 = _mm512_add_pd(y1, y2);
+			const __m512d t13 = _mm512_add_pd(y0, y3);
+			const __m512d t14 = _mm512_mul_pd(_mm512_set1_pd(0.125), t13);
+			const __m512d y_0 = _mm512_fmadd_pd(_mm512_set1_pd(0.375), t12, t14);
 			const __m512d t15 = _mm512_mul_pd(x_3, y_0);
 			const __m512d t16 = _mm512_sub_pd(t7, t15);
 			const __m512d t17 = _mm512_add_pd(t8, t10);
 			const __m512d x_1 = _mm512_mul_pd(_mm512_set1_pd(0.375), t17);
-			const __m512d t18 = _mm512_sub_pd(t12, t13);
+			const __m512d t18 = _mm512_sub_pd(t13, t12);
 			const __m512d y_2 = _mm512_mul_pd(_mm512_set1_pd(0.375), t18);
 			const __m512d t19 = _mm512_mul_pd(x_1, y_2);
-			const __m512d t20 = _mm512_sub_pd(t0, t1);
+			const __m512d t20 = _mm512_sub_pd(t1, t0);
 			const __m512d x_2 = _mm512_mul_pd(_mm512_set1_pd(0.375), t20);
 			const __m512d t21 = _mm512_add_pd(t3, t5);
 			const __m512d y_1 = _mm512_mul_pd(_mm512_set1_pd(0.375), t21);

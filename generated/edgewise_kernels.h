@@ -1636,9 +1636,11 @@ typedef void ew_ring_run(const double *x, const double *y, const double *origin,
 	size_t reach, size_t step, size_t count, double *sum);
 typedef void ew_ring_runf(const float *x, const float *y, const float *origin,
 	size_t reach, size_t step, size_t count, float *sum);
-/* pad = from[0 .. rest-1], then zeros. */
+/* from, or if fewer than width are left, pad: from[0 .. rest-1], then zeros. */
 static inline const double *ew_ring_pad(double *pad, const double *from, size_t rest, size_t width)
 {
+	if (rest >= width)
+		return from;
 	for (size_t i = 0; i < width; ++i)
 		pad[i] = i < rest ? from[i] : 0;
 	return pad;
@@ -1651,9 +1653,11 @@ static inline double ew_ring_lost(double a, double b, double p)
 	const double la = a - ha, lb = b - hb;
 	return ((ha * hb - p) + ha * lb + la * hb) + la * lb;
 }
-/* pad = from[0 .. rest-1], then zeros. */
+/* from, or if fewer than width are left, pad: from[0 .. rest-1], then zeros. */
 static inline const float *ew_ring_padf(float *pad, const float *from, size_t rest, size_t width)
 {
+	if (rest >= width)
+		return from;
 	for (size_t i = 0; i < width; ++i)
 		pad[i] = i < rest ? from[i] : 0;
 	return pad;

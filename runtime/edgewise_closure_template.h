@@ -29,7 +29,7 @@
 #endif
 
 /* The bits of a coordinate, those of 0 for -0; *bad is set for NaN and infinity. */
-static uint64_t EW_LOCAL(coordinate_bits)(EW_REAL value, int *bad)
+EW_INLINE uint64_t EW_LOCAL(coordinate_bits)(EW_REAL value, int *bad)
 {
 #if EW_IS_FLOAT
 	uint32_t bits;
@@ -45,7 +45,7 @@ static uint64_t EW_LOCAL(coordinate_bits)(EW_REAL value, int *bad)
 
 /* Every step but the sum of x and y can be undone, so two vertices of equal x or equal y never
  * share a value. */
-static uint64_t EW_LOCAL(mixed_vertex)(EW_REAL x, EW_REAL y, int *bad)
+EW_INLINE uint64_t EW_LOCAL(mixed_vertex)(EW_REAL x, EW_REAL y, int *bad)
 {
 	uint64_t h = (EW_LOCAL(coordinate_bits)(x, bad) ^ EW_KEY_X) * EW_FACTOR_X;
 	h = (h ^ h >> 32) + (EW_LOCAL(coordinate_bits)(y, bad) ^ EW_KEY_Y);

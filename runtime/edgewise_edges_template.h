@@ -1,11 +1,13 @@
 /* edgewise_edges_template.h - edges one by one: moments of every kind of edge, paths, distance and
  * the closure sum; included by edgewise_rings.c once per precision.
  *
- * The edges of a path are gathered by kind: control point v of edge i of a kind goes to x[v][i],
- * y[v][i], the weight of a conic to x[3][i], so that the kernels of rings run over them with
- * reach EW_EDGES. Edge i of its kind goes to lane i mod L, and at the end lanes are added by
- * halving and kinds in the order line, quad, conic, cubic: results do not depend on the target.
- * Float lanes are flushed to double after every EW_EDGES edges.
+ * The edges of a path are sorted by kind: of each kind up to EW_EDGES are kept, as pointers to
+ * their control points, which mostly lie in the path one behind the other, so that nothing depends
+ * on a guess which kind comes next. Then control point v of edge i goes to x[v][i], y[v][i], the
+ * weight of a conic to x[3][i], and the kernels of rings run over them with reach EW_EDGES. Edge i
+ * of its kind goes to lane i mod L, and at the end lanes are added by halving and kinds in the
+ * order line, quad, conic, cubic: results do not depend on the target. Float lanes are flushed to
+ * double after every EW_EDGES edges.
  *
  * A conic is its chord and the cap beyond it. The kernels of caps hold for 0 <= w <= 3 (area: for
  * every w > -1); other arcs are halved first, and what is beyond EW_SHARP is its control polygon.
@@ -18,7 +20,9 @@ typedef struct {
 	unsigned used;
 	double bad;                            /* 0, or NaN: a weight without an area */
 	size_t count[EW_KINDS];
-	EW_REAL x[EW_KINDS][4][EW_EDGES], y[EW_KINDS][4][EW_EDGES];
+	const EW_REAL *edge[EW_KINDS][EW_EDGES];       /* control points, x and y alternating */
+	EW_REAL weight[EW_EDGES];                      /* of conics */
+	EW_REAL own[EW_KINDS][EW_EDGES][8];            /* of edges that do not lie in the path */
 	EW_ALIGNED EW_REAL sum[EW_KINDS][EW_MAX_ACCUMULATORS * EW_WIDTH];
 #if EW_IS_FLOAT
 	double wide[EW_KINDS][EW_MAX_ACCUMULATORS * EW_WIDTH];
@@ -34,42 +38,92 @@ static void EW_LOCAL(begin_edges)(EW_LOCAL(edges) *e, int degree)
 		e->count[kind] = 0;
 }
 
-/* Runs over the edges of a kind that have been gathered. */
+/* Control point v of edge i to x[v * EW_EDGES + i], y[v * EW_EDGES + i]. */
+EW_INLINE void EW_LOCAL(spread)(const EW_REAL *const *edge, int points, size_t count, EW_REAL *x,
+	EW_REAL *y)
+{
+#define EW_PUT(v) \
+	x[(v) * EW_EDGES + i] = edge[i][2 * (v)]; \
+	y[(v) * EW_EDGES + i] = edge[i][2 * (v) + 1];
+	for (size_t i = 0; i < count; ++i) {
+		EW_PUT(0)
+		EW_PUT(1)
+		if (points > 2) {
+			EW_PUT(2)
+		}
+		if (points > 3) {
+			EW_PUT(3)
+		}
+	}
+#undef EW_PUT
+}
+
+/* Runs over the edges of a kind that have been kept. */
 static void EW_LOCAL(run_edges)(EW_LOCAL(edges) *e, int kind)
 {
 	const int id = ew_ring_kind(kind, e->degree);
 	const size_t cells = (size_t)ew_ring_shapes[id].accumulators * EW_WIDTH;
 	const size_t rest = (e->count[kind] - 1) % EW_EDGES + 1;
+	EW_ALIGNED EW_REAL x[4 * EW_EDGES];
+	EW_ALIGNED EW_REAL y[4 * EW_EDGES];
 	EW_REAL *sum = e->sum[kind];
+	if (kind == EW_KIND_LINE)
+		EW_LOCAL(spread)(e->edge[kind], 2, rest, x, y);
+	else if (kind == EW_KIND_CUBIC)
+		EW_LOCAL(spread)(e->edge[kind], 4, rest, x, y);
+	else
+		EW_LOCAL(spread)(e->edge[kind], 3, rest, x, y);
+	if (kind == EW_KIND_CONIC)
+		memcpy(x + 3 * EW_EDGES, e->weight, rest * sizeof *x);
 	if (EW_IS_FLOAT || e->count[kind] <= EW_EDGES)
 		EW_LOCAL(by_columns)(e->used)->clear(sum, cells);
-	EW_LOCAL(kernel)(id, e->used)(e->x[kind][0], e->y[kind][0], e->x[kind][0], EW_EDGES, EW_WIDTH,
-		rest, sum);
+	EW_LOCAL(kernel)(id, e->used)(x, y, x, EW_EDGES, EW_WIDTH, rest, sum);
 #if EW_IS_FLOAT
-	for (size_t i = 0; i < cells; ++i)
-		e->wide[kind][i] = (double)sum[i] + (e->count[kind] > EW_EDGES ? e->wide[kind][i] : 0);
+	if (e->count[kind] <= EW_EDGES)
+		for (size_t i = 0; i < cells; ++i)
+			e->wide[kind][i] = (double)sum[i] + 0;
+	else
+		for (size_t i = 0; i < cells; ++i)
+			e->wide[kind][i] += (double)sum[i];
 #endif
 }
 
-/* point: x and y of so many control points, alternating. */
-static void EW_LOCAL(add_edge)(EW_LOCAL(edges) *e, int kind, const EW_REAL *point, int points,
-	EW_REAL weight)
+/* Control points that stay where they are until the end. */
+EW_INLINE void EW_LOCAL(add_edge)(EW_LOCAL(edges) *e, int kind, const EW_REAL *point)
 {
-	const size_t i = e->count[kind]++ % EW_EDGES;
-	for (int v = 0; v < points; ++v) {
-		e->x[kind][v][i] = point[2 * v];
-		e->y[kind][v][i] = point[2 * v + 1];
-	}
-	if (kind == EW_KIND_CONIC)
-		e->x[kind][3][i] = weight;
-	if (i + 1 == EW_EDGES)
+	const size_t count = ++e->count[kind];
+	e->edge[kind][(count - 1) % EW_EDGES] = point;
+	if (count % EW_EDGES == 0)
 		EW_LOCAL(run_edges)(e, kind);
+}
+
+/* Control points of which a copy is kept: the first one apart from the others. */
+static void EW_LOCAL(add_copy)(EW_LOCAL(edges) *e, int kind, const EW_REAL *first,
+	const EW_REAL *others, size_t points)
+{
+	EW_REAL *own = e->own[kind][e->count[kind] % EW_EDGES];
+	own[0] = first[0];
+	own[1] = first[1];
+	memcpy(own + 2, others, 2 * (points - 1) * sizeof *own);
+	EW_LOCAL(add_edge)(e, kind, own);
 }
 
 static void EW_LOCAL(add_line)(EW_LOCAL(edges) *e, const EW_REAL *from, const EW_REAL *to)
 {
-	const EW_REAL point[4] = { from[0], from[1], to[0], to[1] };
-	EW_LOCAL(add_edge)(e, EW_KIND_LINE, point, 2, 0);
+	EW_LOCAL(add_copy)(e, EW_KIND_LINE, from, to, 2);
+}
+
+/* The lanes of an accumulator, added by halving. */
+static double EW_LOCAL(tree)(const double *lane)
+{
+	double a[EW_WIDTH / 2];
+	for (int l = 0; l < EW_WIDTH / 2; ++l)
+		a[l] = lane[l] + lane[l + EW_WIDTH / 2];
+#if EW_IS_FLOAT
+	for (int l = 0; l < 4; ++l)
+		a[l] += a[l + 4];
+#endif
+	return (a[0] + a[2]) + (a[1] + a[3]);
 }
 
 /* out[0 .. EW_MOMENTS(degree) - 1] = sums over all kinds. */
@@ -84,17 +138,12 @@ static void EW_LOCAL(end_edges)(EW_LOCAL(edges) *e, double *out)
 		const ew_ring_shape *shape = &ew_ring_shapes[ew_ring_kind(kind, e->degree)];
 		if (e->count[kind] % EW_EDGES)
 			EW_LOCAL(run_edges)(e, kind);
-		for (int k = 0; k < shape->accumulators; ++k) {
+		for (int k = 0; k < shape->accumulators; ++k)
 #if EW_IS_FLOAT
-			double *lane = e->wide[kind] + k * EW_WIDTH;
+			total[k] = EW_LOCAL(tree)(e->wide[kind] + k * EW_WIDTH);
 #else
-			double *lane = e->sum[kind] + k * EW_WIDTH;
+			total[k] = EW_LOCAL(tree)(e->sum[kind] + k * EW_WIDTH);
 #endif
-			for (int half = EW_WIDTH / 2; half > 0; half /= 2)
-				for (int l = 0; l < half; ++l)
-					lane[l] += lane[l + half];
-			total[k] = lane[0];
-		}
 		shape->finish(total, result, 1);
 		for (int j = 0; j < EW_MOMENTS(e->degree); ++j)
 			out[j] += result[j];
@@ -110,20 +159,20 @@ static int EW_LOCAL(edges_result)(EW_LOCAL(edges) *e, EW_REAL *out)
 	return EW_OK;
 }
 
-static int EW_LOCAL(one_edge)(int degree, int kind, const EW_REAL *point, int points, EW_REAL *out)
+static int EW_LOCAL(one_edge)(int degree, int kind, const EW_REAL *point, EW_REAL *out)
 {
 	EW_LOCAL(edges) e;
 	if (degree < 0 || degree > EW_MAX_CURVE_DEGREE)
 		return EW_BAD_DEGREE;
 	EW_LOCAL(begin_edges)(&e, degree);
-	EW_LOCAL(add_edge)(&e, kind, point, points, 0);
+	EW_LOCAL(add_edge)(&e, kind, point);
 	return EW_LOCAL(edges_result)(&e, out);
 }
 
 int EW_NAME(line_moments)(int degree, EW_REAL x0, EW_REAL y0, EW_REAL x1, EW_REAL y1, EW_REAL *out)
 {
 	const EW_REAL point[] = { x0, y0, x1, y1 };
-	return EW_LOCAL(one_edge)(degree, EW_KIND_LINE, point, 2, out);
+	return EW_LOCAL(one_edge)(degree, EW_KIND_LINE, point, out);
 }
 
 #ifdef EW_HAS_QUADS
@@ -131,7 +180,7 @@ int EW_NAME(quad_moments)(int degree, EW_REAL x0, EW_REAL y0, EW_REAL x1, EW_REA
 	EW_REAL y2, EW_REAL *out)
 {
 	const EW_REAL point[] = { x0, y0, x1, y1, x2, y2 };
-	return EW_LOCAL(one_edge)(degree, EW_KIND_QUAD, point, 3, out);
+	return EW_LOCAL(one_edge)(degree, EW_KIND_QUAD, point, out);
 }
 #endif
 
@@ -140,7 +189,7 @@ int EW_NAME(cubic_moments)(int degree, EW_REAL x0, EW_REAL y0, EW_REAL x1, EW_RE
 	EW_REAL y2, EW_REAL x3, EW_REAL y3, EW_REAL *out)
 {
 	const EW_REAL point[] = { x0, y0, x1, y1, x2, y2, x3, y3 };
-	return EW_LOCAL(one_edge)(degree, EW_KIND_CUBIC, point, 4, out);
+	return EW_LOCAL(one_edge)(degree, EW_KIND_CUBIC, point, out);
 }
 #endif
 
@@ -184,7 +233,8 @@ static void EW_LOCAL(add_conic)(EW_LOCAL(edges) *e, const EW_REAL *point, EW_REA
 		EW_LOCAL(add_halves)(e, point, w);
 	} else {
 		EW_LOCAL(add_line)(e, point, point + 4);
-		EW_LOCAL(add_edge)(e, EW_KIND_CONIC, point, 3, w);
+		e->weight[e->count[EW_KIND_CONIC] % EW_EDGES] = w;
+		EW_LOCAL(add_copy)(e, EW_KIND_CONIC, point, point + 2, 3);
 	}
 }
 
@@ -209,23 +259,6 @@ EW_REAL EW_NAME(conic_area)(EW_REAL x0, EW_REAL y0, EW_REAL x1, EW_REAL y1, EW_R
 }
 #endif
 
-/* Do the verbs take exactly these points and weights, and does a contour begin with a move? */
-static int EW_LOCAL(is_path)(const unsigned char *verbs, size_t verb_count, const EW_REAL *points,
-	size_t point_count, const EW_REAL *weights, size_t weight_count)
-{
-	if ((verb_count && !verbs) || (point_count && !points) || (weight_count && !weights)
-	    || (verb_count && verbs[0] != EW_MOVE))
-		return 0;
-	for (size_t i = 0; i < verb_count; ++i) {
-		if (!ew_path_has(verbs[i]) || ew_path_points[verbs[i]] > point_count
-		    || (verbs[i] == EW_CONIC && weight_count == 0))
-			return 0;
-		point_count -= ew_path_points[verbs[i]];
-		weight_count -= verbs[i] == EW_CONIC;
-	}
-	return point_count == 0 && weight_count == 0;
-}
-
 /* The line that closes a contour, unless it is closed. */
 static void EW_LOCAL(add_closing)(EW_LOCAL(edges) *e, const EW_REAL *from, const EW_REAL *start)
 {
@@ -233,31 +266,54 @@ static void EW_LOCAL(add_closing)(EW_LOCAL(edges) *e, const EW_REAL *from, const
 		EW_LOCAL(add_line)(e, from, start);
 }
 
-static void EW_LOCAL(add_path)(EW_LOCAL(edges) *e, const unsigned char *verbs, size_t verb_count,
-	const EW_REAL *points, const EW_REAL *weights)
+/* An edge from `here` to the points at `next`, which mostly follow it. */
+EW_INLINE void EW_LOCAL(add_drawn)(EW_LOCAL(edges) *e, int verb, const EW_REAL *here,
+	const EW_REAL *next, const EW_REAL *weight)
 {
-	EW_REAL start[2] = { 0, 0 }, point[8] = { 0 };    /* of the contour; from where we are */
-	(void)weights;
-	for (size_t i = 0; i < verb_count; ++i) {
-		const int verb = verbs[i], taken = (int)ew_path_points[verb];
-		for (int k = 0; k < 2 * taken; ++k)
-			point[2 + k] = *points++;
-		if (verb == EW_MOVE || verb == EW_CLOSE)
-			EW_LOCAL(add_closing)(e, point, start);
+	(void)weight;
 #ifdef EW_HAS_CONICS
-		else if (verb == EW_CONIC)
-			EW_LOCAL(add_conic)(e, point, *weights++);
-#endif
-		else
-			EW_LOCAL(add_edge)(e, ew_path_kinds[verb], point, taken + 1, 0);
-		if (verb == EW_MOVE) {
-			start[0] = point[2];
-			start[1] = point[3];
-		}
-		point[0] = taken ? point[2 * taken] : start[0];
-		point[1] = taken ? point[2 * taken + 1] : start[1];
+	if (verb == EW_CONIC) {
+		const EW_REAL point[] = { here[0], here[1], next[0], next[1], next[2], next[3] };
+		EW_LOCAL(add_conic)(e, point, *weight);
+		return;
 	}
-	EW_LOCAL(add_closing)(e, point, start);
+#endif
+	if (next == here + 2)
+		EW_LOCAL(add_edge)(e, ew_path_kinds[verb], here);
+	else
+		EW_LOCAL(add_copy)(e, ew_path_kinds[verb], here, next, ew_path_points[verb] + 1);
+}
+
+/* 0 if the verbs do not take exactly these points and weights, or are not ours. The first one is
+ * a move. */
+static int EW_LOCAL(add_path)(EW_LOCAL(edges) *e, const unsigned char *verbs, size_t verb_count,
+	const EW_REAL *points, size_t point_count, const EW_REAL *weights, size_t weight_count)
+{
+	const EW_REAL *start = points, *here = points, *next = points;
+	for (size_t i = 0; i < verb_count; ++i) {
+		const int verb = verbs[i];
+		if (!ew_path_has(verb) || ew_path_points[verb] > point_count
+		    || (verb == EW_CONIC && weight_count == 0))
+			return 0;
+		point_count -= ew_path_points[verb];
+		if (verb == EW_MOVE || verb == EW_CLOSE) {
+			EW_LOCAL(add_closing)(e, here, start);
+			start = verb == EW_MOVE ? next : start;
+			next += 2 * ew_path_points[verb];
+			here = start;
+			continue;
+		}
+		EW_LOCAL(add_drawn)(e, verb, here, next, weights);
+		if (verb == EW_CONIC) {
+			++weights;
+			--weight_count;
+		}
+		next += 2 * ew_path_points[verb];
+		here = next - 2;
+	}
+	if (verb_count)
+		EW_LOCAL(add_closing)(e, here, start);
+	return point_count == 0 && weight_count == 0;
 }
 
 int EW_NAME(path_moments)(int degree, const unsigned char *verbs, size_t verb_count,
@@ -267,10 +323,12 @@ int EW_NAME(path_moments)(int degree, const unsigned char *verbs, size_t verb_co
 	EW_LOCAL(edges) e;
 	if (degree < 0 || degree > EW_MAX_CURVE_DEGREE)
 		return EW_BAD_DEGREE;
-	if (!EW_LOCAL(is_path)(verbs, verb_count, points, point_count, weights, weight_count))
+	if ((verb_count && !verbs) || (point_count && !points) || (weight_count && !weights)
+	    || (verb_count && verbs[0] != EW_MOVE))
 		return EW_BAD_PATH;
 	EW_LOCAL(begin_edges)(&e, degree);
-	EW_LOCAL(add_path)(&e, verbs, verb_count, points, weights);
+	if (!EW_LOCAL(add_path)(&e, verbs, verb_count, points, point_count, weights, weight_count))
+		return EW_BAD_PATH;
 	return EW_LOCAL(edges_result)(&e, out);
 }
 #endif

@@ -69,7 +69,7 @@ compensated, sign of an error|compensated.c|s/dag_sub(dag, left_error, right_err
 distance, series beyond its range|distance.c|s/dag_choose(dag, log.k, beyond, log.series);/log.series;/|distance|edges within
 distance, term of the third power|distance.c|s/rat(3, 8), h2/rat(5, 8), h2/|distance|edges within
 distance, seam of the inverse|distance.c|s/const Rat seam = rat(3, 4)/const Rat seam = rat(2, 1)/|distance|edges within
-conic, side of the seam|conic.c|s/dag_sub(dag, w, dag_const(dag, rat(2, 1)))/dag_sub(dag, dag_const(dag, rat(2, 1)), w)/|conics|area
+conic, side of the seam|conic.c|s/dag_sub(dag, w, dag_const(dag, rat(2, 1)))/dag_sub(dag, dag_const(dag, rat(2, 1)), w)/|conics|f(w)
 conic, power of R|conic.c|s/value\[i\] = dag_mul(dag, value\[i\], square\[i\]);/value[i] = dag_mul(dag, value[i], value[i]);/|conics|moments
 magnitudes, coordinate with its sign|moments.c|s/end.ref\[var\] = dag_unary(dag, OP_ABS, end.ref\[var\]);/end.ref[var] = dag_add(dag, end.ref[var], NONE);/|bounded|magnitudes
 END
