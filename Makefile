@@ -111,7 +111,7 @@ PEER_C     := $(CC) -x c -std=c11 $(STRICT) $(PEER_FLAGS)
 PEER_CXX   := $(CXX) -x c++ -Wall -Wextra $(PEER_FLAGS)
 
 BENCH_PARTS    := bench measure table vectors targets polygons kernels order schemes trust streams \
-                  batches contest chart
+                  batches contest curves paths distance chart
 BENCH_PACKAGES := g++ libgeos-dev libboost-dev libcgal-dev libopencv-imgproc-dev
 # A peak of multiply-adds and a scalar kernel must stay what they are written as.
 BENCH_COMPILE   = $(COMPILE) -std=c11 -fno-tree-vectorize -fno-tree-slp-vectorize \
@@ -119,14 +119,17 @@ BENCH_COMPILE   = $(COMPILE) -std=c11 -fno-tree-vectorize -fno-tree-slp-vectoriz
 BENCH_OBJECTS  := $(BENCH_PARTS:%=$(B)/bench.obj/%.o)
 
 # Kernels for comparison, each emission under a prefix of its own: everything as a coefficient
-# matrix, and all moments to degree 12. The files to compile are known only after gen ran.
-BENCH_EMITS := mx deg12
+# matrix, all moments to degree 12, and curves with every term written out. The files to compile are known only after gen ran.
+BENCH_EMITS := mx deg12 ex
 EMIT_mx     := --scheme matrix --max-degree 6 --precision double
 EMIT_deg12  := --max-degree 12
+EMIT_ex     := --scheme expanded --families curves --max-degree 2 --edges quad,cubic \
+               --precision double
 FILES_mx    := mx_*.c
 FILES_deg12 := deg12_moments*.c
+FILES_ex    := ex_*.c
 
-$(B)/bench.mx.stamp $(B)/bench.deg12.stamp: $(B)/bench.%.stamp: $(B)/gen
+$(BENCH_EMITS:%=$(B)/bench.%.stamp): $(B)/bench.%.stamp: $(B)/gen
 	$(B)/gen $(EMIT_$*) --prefix $* --no-runtime --quiet --out $(B)/bench.$*
 	@touch $@
 

@@ -11,7 +11,7 @@
 static const struct { const char *name; void (*run)(const Effort *effort); } sections[] = {
 	{ "machine", section_machine }, { "kernels", section_kernels }, { "order", section_order },
 	{ "schemes", section_schemes }, { "trust", section_trust }, { "streams", section_streams },
-	{ "batches", section_batches }, { "contest", section_contest },
+	{ "batches", section_batches }, { "contest", section_contest }, { "curves", section_curves },
 };
 enum { SECTIONS = (int)(sizeof sections / sizeof *sections) };
 

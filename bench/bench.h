@@ -104,7 +104,7 @@ typedef struct {
 	const char *name;
 	int lanes[PRECISIONS];         /* of a register */
 	const Kernel *kernels[PRECISIONS];
-	const Kernel *matrix;          /* the same in coefficient-matrix form, double; by its ids */
+	const Kernel *matrix, *expanded;          /* the same in coefficient-matrix form, double; by its ids */
 } Target;
 
 enum { ITEMS = 1024, MAX_TARGETS = 8 };
@@ -156,6 +156,9 @@ void section_trust(const Effort *effort);
 void section_streams(const Effort *effort);
 void section_batches(const Effort *effort);
 void section_contest(const Effort *effort);
+void section_curves(const Effort *effort);     /* curves.c, and these two: */
+void paths_tables(const Effort *effort);       /* paths.c */
+void distance_tables(const Effort *effort);    /* distance.c */
 int  chart_write(const char *file);            /* 0 if the file could not be written */
 
 #endif

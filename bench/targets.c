@@ -8,6 +8,7 @@
 #include "bench.h"
 
 #include "deg12_kernels.h"
+#include "ex_kernels.h"
 #include "mx_kernels.h"
 
 enum { MOST_LANES = 16 };
@@ -28,12 +29,13 @@ enum { MOST_LANES = 16 };
 	static const Kernel target##_float[KERNELS] = { \
 		EW_RINGS_##TARGET##_FLOAT(ROWF) DEGREE_12_OFF(target) \
 	}; \
-	static const Kernel target##_matrix[] = { MX_RINGS_##TARGET##_DOUBLE(ROW) };
+	static const Kernel target##_matrix[] = { MX_RINGS_##TARGET##_DOUBLE(ROW) }; \
+	static const Kernel target##_expanded[] = { EX_RINGS_##TARGET##_DOUBLE(ROW) };
 EW_TARGETS(LISTS)
 
 #define ENTRY(TARGET, target, doubles) \
 	{ EW_##TARGET, #target, { doubles, doubles > 1 ? 2 * doubles : 1 }, \
-	  { target##_double, target##_float }, target##_matrix },
+	  { target##_double, target##_float }, target##_matrix, target##_expanded },
 static const Target every_target[] = { EW_TARGETS(ENTRY) };
 
 #define NAME(id, family, m, n, accumulators, outputs, k, r) #id,
@@ -62,18 +64,18 @@ KernelJob kernel_job(const Target *target, int precision, int id)
 
 void kernel_run(const void *context, long repeat)
 {
-	static _Alignas(64) double x[ITEMS + 2], y[ITEMS + 2], cx[MOST_LANES];
+	static _Alignas(64) double x[ITEMS + 3], y[ITEMS + 3], cx[MOST_LANES];
 	static _Alignas(64) double sum[DEG12_MAX_ACCUMULATORS * MOST_LANES];
-	static _Alignas(64) float xf[ITEMS + 2], yf[ITEMS + 2], cxf[MOST_LANES];
+	static _Alignas(64) float xf[ITEMS + 3], yf[ITEMS + 3], cxf[MOST_LANES];
 	static _Alignas(64) float sumf[DEG12_MAX_ACCUMULATORS * MOST_LANES];
 	static int ready;
 	const KernelJob *job = context;
 	if (!ready) {
 		ready = 1;
-		points_make(DOUBLE, x, ITEMS + 2);
-		points_make(DOUBLE, y, ITEMS + 2);
-		points_make(FLOAT, xf, ITEMS + 2);
-		points_make(FLOAT, yf, ITEMS + 2);
+		points_make(DOUBLE, x, ITEMS + 3);
+		points_make(DOUBLE, y, ITEMS + 3);
+		points_make(FLOAT, xf, ITEMS + 3);
+		points_make(FLOAT, yf, ITEMS + 3);
 	}
 	while (repeat-- > 0)
 		if (job->kernel->run)

@@ -12,6 +12,9 @@
  * exact; proof.c then checks that the program is this very sum over the nodes. */
 #include "gen.h"
 
+#include <string.h>
+
+enum { EXPANDED_DEGREE = 2 };                /* beyond it there are thousands of terms */
 enum { MOST = 4 };                           /* control points of a cubic */
 
 typedef struct {
@@ -262,8 +265,29 @@ static Dag *by_nodes(int window, int degree)
 	return dag;
 }
 
-Dag *curve_moments(int window, int degree)
+/* ---- all terms of the polynomials, in nested form: what a computer algebra system gives ---- */
+
+static Dag *expanded(int window, int degree)
 {
+	Dag *dag = dag_new("expanded");
+	dag->window = window;
+	finish_room(dag, degree);
+	for (int d = 0; d <= degree; ++d)
+		for (int n = 0; n <= d; ++n) {
+			const Mono mono = mono_var(VAR_X, d - n) + mono_var(VAR_Y, n);
+			Poly value = green_curve(window_points(window), poly_mono(rat(1, 1), mono));
+			Rat content = poly_content(value);
+			Poly integers = poly_scale(value, rat_div(rat(1, 1), content));
+			finish_next(dag, d - n, n, content);
+			dag_accumulate(dag, horner(dag, integers, VAR_X0));
+		}
+	return dag;
+}
+
+Dag *curve_moments(int window, int degree, const char *preferred)
+{
+	if (preferred && strcmp(preferred, "expanded") == 0 && degree <= EXPANDED_DEGREE)
+		return expanded(window, degree);
 	if (degree == 0)
 		return area(window);
 	return degree == 1 ? to_degree_1(window) : by_nodes(window, degree);

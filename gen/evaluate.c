@@ -140,12 +140,12 @@ Ref grouped(Dag *dag, const Leaves *leaves, Poly density, const int *outer)
 	return sum;
 }
 
-/* Nested multiplication in x0, then x1, y0, y1. */
+/* Nested multiplication in x0, then y0, x1, y1, ... */
 Ref horner(Dag *dag, Poly a, int var)
 {
 	if (a.count == 0)
 		return NONE;
-	if (var > VAR_Y1)
+	if (var > VAR_Y3)
 		return dag_const(dag, a.term[0].coef);
 	Ref sum = NONE;
 	for (int power = poly_degree(a, var); power >= 0; --power) {

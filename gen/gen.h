@@ -306,7 +306,8 @@ Dag *compensated_area(void);
 
 Dag *curve_area_edge(int window);            /* of one edge, line too: negated when reversed */
 Dag *curve_monomial_edge(int window, int m, int n);
-Dag *curve_moments(int window, int degree);  /* all moments to a degree, accumulated */
+/* All moments to a degree, accumulated; expanded if that is preferred, and the degree is low. */
+Dag *curve_moments(int window, int degree, const char *preferred);
 int  curve_nodes(int window, int degree);    /* of the Gauss-Legendre rule that is exact */
 
 /* ---- logarithm.c: for what is not polynomial ------------------------------------------------- */

@@ -264,11 +264,11 @@ static void build_curves(Kernels *all, const Request *request, int window, const
 			build_other_ring(ring, conic_cap(degree, 0), conic_cap(degree, 1), NULL, dump);
 			continue;
 		}
+		const Dag *dag = curve_moments(window, degree, request->scheme);
 		Integral *want = allocate((size_t)outputs * sizeof *want);
-		for (int j = 0; j < outputs && degree < 2; ++j)
+		for (int j = 0; j < outputs && dag->proof == PROOF_POLYNOMIAL; ++j)
 			want[j].value = green_curve(window_points(window),
 				request->monomial[j].integrand);
-		const Dag *dag = curve_moments(window, degree);
 		build_other_ring(ring, dag, dag, want, dump);
 	}
 }
@@ -277,7 +277,7 @@ static void build_curves(Kernels *all, const Request *request, int window, const
 static void build_line_area(Kernels *all, const Dump *dump)
 {
 	const Integral want = { .value = green_curve(2, poly_const(rat(1, 1))) };
-	const Dag *dag = curve_moments(WINDOW_LINE, 0);
+	const Dag *dag = curve_moments(WINDOW_LINE, 0, NULL);
 	build_other_ring(next_ring(all, "line_0", "line", 0, 0, 1), dag, dag, &want, dump);
 }
 

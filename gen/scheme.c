@@ -11,6 +11,7 @@
  *   horner      nested multiplication
  *   even-power  the same matrix form in a = p0 + p1 and e = p1 - p0: only terms even in e survive
  *               the integration
+ *   expanded    of curves alone (curves.c): every term of the polynomial
  *   vertex      constants alone: 1/2 (x_i - cx) (y_(i+1) - y_(i-1)), one product per vertex */
 #include "gen.h"
 
@@ -24,7 +25,7 @@ enum { FEW_TERMS = 24 };                   /* try normalisations of a density up
 const char *const *scheme_names(void)
 {
 	static const char *const names[] = {
-		"matrix", "horner", "even-power", "shared", "recurrence", "vertex", NULL
+		"matrix", "horner", "even-power", "shared", "recurrence", "vertex", "expanded", NULL
 	};
 	return names;
 }
