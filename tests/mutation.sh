@@ -54,7 +54,7 @@ curves, power at a node|curves.c|s/power\[i\].at\[m - 1\]\[0\], v\[i\].x/power[i
 curves, one node fewer|curves.c|/by_nodes(int/,/^}/s/gauss_legendre(curve_nodes(window, degree)/gauss_legendre(curve_nodes(window, degree) - 1/
 curves, area of a cubic|curves.c|s/scaled(dag, 6, dag_add(dag, c01, c23))/scaled(dag, 5, dag_add(dag, c01, c23))/
 closure, sign|distance.c|s/dag_accumulate(dag, dag_sub(dag, start, end))/dag_accumulate(dag, dag_add(dag, start, end))/
-reversal, order of cross products|distance.c|s/dag_unary(dag, OP_ABS, a), dag_unary(dag, OP_ABS, b)/a, b/
+reversal, mirrored products|distance.c|s/left = dag_unary(dag, OP_ABS, a), right = dag_unary(dag, OP_ABS, b)/left = a, right = b/
 Green, control points of a curve|green.c|s/int_binomial(p, i), 1)/int_binomial(p, i) + i, 1)/
 Green, integral over the edge|green.c|s/int_mul(p + q + 1, int_binomial/int_mul(p + q + 2, int_binomial/
 Green, divergence of the field|green.c|s/rat(degree + 2, 1)/rat(degree + 1, 1)/
