@@ -48,6 +48,10 @@ static const char *const X86 =
 	"#define EW_SQRT_mm256_ps(a) _mm256_sqrt_ps(a)\n"
 	"#define EW_SQRT_mm512_pd(a) _mm512_maskz_sqrt_pd(0xff, a)\n"
 	"#define EW_SQRT_mm512_ps(a) _mm512_maskz_sqrt_ps(0xffff, a)\n"
+	"#define EW_MAX_mm256_pd(a, b) _mm256_max_pd(a, b)\n"
+	"#define EW_MAX_mm256_ps(a, b) _mm256_max_ps(a, b)\n"
+	"#define EW_MAX_mm512_pd(a, b) _mm512_maskz_max_pd(0xff, a, b)\n"
+	"#define EW_MAX_mm512_ps(a, b) _mm512_maskz_max_ps(0xffff, a, b)\n"
 	"#define EW_CHOOSE_mm256_pd(a, b, c) _mm256_blendv_pd(c, b, \\\n"
 	"\t_mm256_cmp_pd(a, _mm256_setzero_pd(), _CMP_GT_OQ))\n"
 	"#define EW_CHOOSE_mm256_ps(a, b, c) _mm256_blendv_ps(c, b, \\\n"
@@ -70,10 +74,10 @@ static const char *const X86 =
 	"#define EW_EXPONENT_mm256_ps(a) \\\n"
 	"\t_mm256_cvtepi32_ps(_mm256_srli_epi32(EW_BITS_mm256_ps(a), 23))\n"
 	"#define EW_EXPONENT_mm512_pd(a) _mm512_sub_pd(_mm512_castsi512_pd(_mm512_or_si512( \\\n"
-	"\t_mm512_srli_epi64(EW_BITS_mm512_pd(a), 52), _mm512_castpd_si512( \\\n"
+	"\t_mm512_maskz_srli_epi64(0xff, EW_BITS_mm512_pd(a), 52), _mm512_castpd_si512( \\\n"
 	"\t_mm512_set1_pd(0x1p52)))), _mm512_set1_pd(0x1p52))\n"
 	"#define EW_EXPONENT_mm512_ps(a) \\\n"
-	"\t_mm512_cvtepi32_ps(_mm512_srli_epi32(EW_BITS_mm512_ps(a), 23))\n"
+	"\t_mm512_maskz_cvtepi32_ps(0xffff, _mm512_maskz_srli_epi32(0xffff, EW_BITS_mm512_ps(a), 23))\n"
 	"#define EW_FRACTION_mm256_pd(a) _mm256_castsi256_pd(_mm256_sub_epi64( \\\n"
 	"\t_mm256_castpd_si256(a), \\\n"
 	"\t_mm256_slli_epi64(_mm256_srli_epi64(EW_BITS_mm256_pd(a), 52), 52)))\n"
@@ -82,10 +86,10 @@ static const char *const X86 =
 	"\t_mm256_slli_epi32(_mm256_srli_epi32(EW_BITS_mm256_ps(a), 23), 23)))\n"
 	"#define EW_FRACTION_mm512_pd(a) _mm512_castsi512_pd(_mm512_sub_epi64( \\\n"
 	"\t_mm512_castpd_si512(a), \\\n"
-	"\t_mm512_slli_epi64(_mm512_srli_epi64(EW_BITS_mm512_pd(a), 52), 52)))\n"
+	"\t_mm512_maskz_slli_epi64(0xff, _mm512_maskz_srli_epi64(0xff, EW_BITS_mm512_pd(a), 52), 52)))\n"
 	"#define EW_FRACTION_mm512_ps(a) _mm512_castsi512_ps(_mm512_sub_epi32( \\\n"
 	"\t_mm512_castps_si512(a), \\\n"
-	"\t_mm512_slli_epi32(_mm512_srli_epi32(EW_BITS_mm512_ps(a), 23), 23)))\n";
+	"\t_mm512_maskz_slli_epi32(0xffff, _mm512_maskz_srli_epi32(0xffff, EW_BITS_mm512_ps(a), 23), 23)))\n";
 
 static const char *const NEON =
 	"#define EW_MAX_f64(a, b) vbslq_f64(vcgtq_f64(a, b), a, b)\n"

@@ -75,7 +75,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_inverse_avx2(
 			const __m256d t24 = EW_CHOOSE_mm256_pd(product, t22, t23);
 			const __m256d t25 = EW_CHOOSE_mm256_pd(t18, t21, t24);
 			const __m256d t26 = _mm256_div_pd(t25, t20);
-			const __m256d t27 = _mm256_max_pd(t26, _mm256_set1_pd(1.0));
+			const __m256d t27 = EW_MAX_mm256_pd(t26, _mm256_set1_pd(1.0));
 			const __m256d m = EW_FRACTION_mm256_pd(t27);
 			const __m256d t28 = _mm256_sub_pd(m, _mm256_set1_pd(1.0));
 			const __m256d t29 = _mm256_add_pd(_mm256_set1_pd(1.0), m);
@@ -162,7 +162,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_inverse_avx2(
 			const __m256d t24 = EW_CHOOSE_mm256_pd(product, t22, t23);
 			const __m256d t25 = EW_CHOOSE_mm256_pd(t18, t21, t24);
 			const __m256d t26 = _mm256_div_pd(t25, t20);
-			const __m256d t27 = _mm256_max_pd(t26, _mm256_set1_pd(1.0));
+			const __m256d t27 = EW_MAX_mm256_pd(t26, _mm256_set1_pd(1.0));
 			const __m256d m = EW_FRACTION_mm256_pd(t27);
 			const __m256d t28 = _mm256_sub_pd(m, _mm256_set1_pd(1.0));
 			const __m256d t29 = _mm256_add_pd(_mm256_set1_pd(1.0), m);
@@ -233,7 +233,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_1_avx2(
 			const __m256d t3 = _mm256_sub_pd(safe, d);
 			const __m256d t4 = _mm256_mul_pd(_mm256_set1_pd(0x1.0000000000000p-53),
 				safe);
-			const __m256d t5 = _mm256_max_pd(t3, t4);
+			const __m256d t5 = EW_MAX_mm256_pd(t3, t4);
 			const __m256d t6 = _mm256_add_pd(safe, d);
 			const __m256d t7 = _mm256_div_pd(t6, t5);
 			const __m256d m = EW_FRACTION_mm256_pd(t7);
@@ -313,7 +313,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_1_avx2(
 			const __m256d t3 = _mm256_sub_pd(safe, d);
 			const __m256d t4 = _mm256_mul_pd(_mm256_set1_pd(0x1.0000000000000p-53),
 				safe);
-			const __m256d t5 = _mm256_max_pd(t3, t4);
+			const __m256d t5 = EW_MAX_mm256_pd(t3, t4);
 			const __m256d t6 = _mm256_add_pd(safe, d);
 			const __m256d t7 = _mm256_div_pd(t6, t5);
 			const __m256d m = EW_FRACTION_mm256_pd(t7);
@@ -404,7 +404,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_3_avx2(
 			const __m256d t3 = _mm256_sub_pd(safe, d);
 			const __m256d t4 = _mm256_mul_pd(_mm256_set1_pd(0x1.0000000000000p-53),
 				safe);
-			const __m256d t5 = _mm256_max_pd(t3, t4);
+			const __m256d t5 = EW_MAX_mm256_pd(t3, t4);
 			const __m256d t6 = _mm256_add_pd(safe, d);
 			const __m256d t7 = _mm256_div_pd(t6, t5);
 			const __m256d m = EW_FRACTION_mm256_pd(t7);
@@ -503,7 +503,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_3_avx2(
 			const __m256d t3 = _mm256_sub_pd(safe, d);
 			const __m256d t4 = _mm256_mul_pd(_mm256_set1_pd(0x1.0000000000000p-53),
 				safe);
-			const __m256d t5 = _mm256_max_pd(t3, t4);
+			const __m256d t5 = EW_MAX_mm256_pd(t3, t4);
 			const __m256d t6 = _mm256_add_pd(safe, d);
 			const __m256d t7 = _mm256_div_pd(t6, t5);
 			const __m256d m = EW_FRACTION_mm256_pd(t7);
@@ -613,7 +613,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_5_avx2(
 			const __m256d t3 = _mm256_sub_pd(safe, d);
 			const __m256d t4 = _mm256_mul_pd(_mm256_set1_pd(0x1.0000000000000p-53),
 				safe);
-			const __m256d t5 = _mm256_max_pd(t3, t4);
+			const __m256d t5 = EW_MAX_mm256_pd(t3, t4);
 			const __m256d t6 = _mm256_add_pd(safe, d);
 			const __m256d t7 = _mm256_div_pd(t6, t5);
 			const __m256d m = EW_FRACTION_mm256_pd(t7);
@@ -725,7 +725,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_5_avx2(
 			const __m256d t3 = _mm256_sub_pd(safe, d);
 			const __m256d t4 = _mm256_mul_pd(_mm256_set1_pd(0x1.0000000000000p-53),
 				safe);
-			const __m256d t5 = _mm256_max_pd(t3, t4);
+			const __m256d t5 = EW_MAX_mm256_pd(t3, t4);
 			const __m256d t6 = _mm256_add_pd(safe, d);
 			const __m256d t7 = _mm256_div_pd(t6, t5);
 			const __m256d m = EW_FRACTION_mm256_pd(t7);

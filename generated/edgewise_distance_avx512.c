@@ -71,7 +71,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_inverse_avx512(
 			const __m512d t24 = EW_CHOOSE_mm512_pd(product, t22, t23);
 			const __m512d t25 = EW_CHOOSE_mm512_pd(t18, t21, t24);
 			const __m512d t26 = _mm512_div_pd(t25, t20);
-			const __m512d t27 = _mm512_max_pd(t26, _mm512_set1_pd(1.0));
+			const __m512d t27 = EW_MAX_mm512_pd(t26, _mm512_set1_pd(1.0));
 			const __m512d m = EW_FRACTION_mm512_pd(t27);
 			const __m512d t28 = _mm512_sub_pd(m, _mm512_set1_pd(1.0));
 			const __m512d t29 = _mm512_add_pd(_mm512_set1_pd(1.0), m);
@@ -153,7 +153,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_inverse_avx512(
 			const __m512d t24 = EW_CHOOSE_mm512_pd(product, t22, t23);
 			const __m512d t25 = EW_CHOOSE_mm512_pd(t18, t21, t24);
 			const __m512d t26 = _mm512_div_pd(t25, t20);
-			const __m512d t27 = _mm512_max_pd(t26, _mm512_set1_pd(1.0));
+			const __m512d t27 = EW_MAX_mm512_pd(t26, _mm512_set1_pd(1.0));
 			const __m512d m = EW_FRACTION_mm512_pd(t27);
 			const __m512d t28 = _mm512_sub_pd(m, _mm512_set1_pd(1.0));
 			const __m512d t29 = _mm512_add_pd(_mm512_set1_pd(1.0), m);
@@ -220,7 +220,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_1_avx512(
 			const __m512d t3 = _mm512_sub_pd(safe, d);
 			const __m512d t4 = _mm512_mul_pd(_mm512_set1_pd(0x1.0000000000000p-53),
 				safe);
-			const __m512d t5 = _mm512_max_pd(t3, t4);
+			const __m512d t5 = EW_MAX_mm512_pd(t3, t4);
 			const __m512d t6 = _mm512_add_pd(safe, d);
 			const __m512d t7 = _mm512_div_pd(t6, t5);
 			const __m512d m = EW_FRACTION_mm512_pd(t7);
@@ -295,7 +295,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_1_avx512(
 			const __m512d t3 = _mm512_sub_pd(safe, d);
 			const __m512d t4 = _mm512_mul_pd(_mm512_set1_pd(0x1.0000000000000p-53),
 				safe);
-			const __m512d t5 = _mm512_max_pd(t3, t4);
+			const __m512d t5 = EW_MAX_mm512_pd(t3, t4);
 			const __m512d t6 = _mm512_add_pd(safe, d);
 			const __m512d t7 = _mm512_div_pd(t6, t5);
 			const __m512d m = EW_FRACTION_mm512_pd(t7);
@@ -382,7 +382,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_3_avx512(
 			const __m512d t3 = _mm512_sub_pd(safe, d);
 			const __m512d t4 = _mm512_mul_pd(_mm512_set1_pd(0x1.0000000000000p-53),
 				safe);
-			const __m512d t5 = _mm512_max_pd(t3, t4);
+			const __m512d t5 = EW_MAX_mm512_pd(t3, t4);
 			const __m512d t6 = _mm512_add_pd(safe, d);
 			const __m512d t7 = _mm512_div_pd(t6, t5);
 			const __m512d m = EW_FRACTION_mm512_pd(t7);
@@ -476,7 +476,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_3_avx512(
 			const __m512d t3 = _mm512_sub_pd(safe, d);
 			const __m512d t4 = _mm512_mul_pd(_mm512_set1_pd(0x1.0000000000000p-53),
 				safe);
-			const __m512d t5 = _mm512_max_pd(t3, t4);
+			const __m512d t5 = EW_MAX_mm512_pd(t3, t4);
 			const __m512d t6 = _mm512_add_pd(safe, d);
 			const __m512d t7 = _mm512_div_pd(t6, t5);
 			const __m512d m = EW_FRACTION_mm512_pd(t7);
@@ -582,7 +582,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_5_avx512(
 			const __m512d t3 = _mm512_sub_pd(safe, d);
 			const __m512d t4 = _mm512_mul_pd(_mm512_set1_pd(0x1.0000000000000p-53),
 				safe);
-			const __m512d t5 = _mm512_max_pd(t3, t4);
+			const __m512d t5 = EW_MAX_mm512_pd(t3, t4);
 			const __m512d t6 = _mm512_add_pd(safe, d);
 			const __m512d t7 = _mm512_div_pd(t6, t5);
 			const __m512d m = EW_FRACTION_mm512_pd(t7);
@@ -689,7 +689,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_5_avx512(
 			const __m512d t3 = _mm512_sub_pd(safe, d);
 			const __m512d t4 = _mm512_mul_pd(_mm512_set1_pd(0x1.0000000000000p-53),
 				safe);
-			const __m512d t5 = _mm512_max_pd(t3, t4);
+			const __m512d t5 = EW_MAX_mm512_pd(t3, t4);
 			const __m512d t6 = _mm512_add_pd(safe, d);
 			const __m512d t7 = _mm512_div_pd(t6, t5);
 			const __m512d m = EW_FRACTION_mm512_pd(t7);

@@ -75,7 +75,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_inversef_avx2(
 			const __m256 t24 = EW_CHOOSE_mm256_ps(product, t22, t23);
 			const __m256 t25 = EW_CHOOSE_mm256_ps(t18, t21, t24);
 			const __m256 t26 = _mm256_div_ps(t25, t20);
-			const __m256 t27 = _mm256_max_ps(t26, _mm256_set1_ps(1.0f));
+			const __m256 t27 = EW_MAX_mm256_ps(t26, _mm256_set1_ps(1.0f));
 			const __m256 m = EW_FRACTION_mm256_ps(t27);
 			const __m256 t28 = _mm256_sub_ps(m, _mm256_set1_ps(1.0f));
 			const __m256 t29 = _mm256_add_ps(_mm256_set1_ps(1.0f), m);
@@ -152,7 +152,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_inversef_avx2(
 			const __m256 t24 = EW_CHOOSE_mm256_ps(product, t22, t23);
 			const __m256 t25 = EW_CHOOSE_mm256_ps(t18, t21, t24);
 			const __m256 t26 = _mm256_div_ps(t25, t20);
-			const __m256 t27 = _mm256_max_ps(t26, _mm256_set1_ps(1.0f));
+			const __m256 t27 = EW_MAX_mm256_ps(t26, _mm256_set1_ps(1.0f));
 			const __m256 m = EW_FRACTION_mm256_ps(t27);
 			const __m256 t28 = _mm256_sub_ps(m, _mm256_set1_ps(1.0f));
 			const __m256 t29 = _mm256_add_ps(_mm256_set1_ps(1.0f), m);
@@ -212,7 +212,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_1f_avx2(
 			const __m256 d = EW_SQRT_mm256_ps(d2);
 			const __m256 t3 = _mm256_sub_ps(safe, d);
 			const __m256 t4 = _mm256_mul_ps(_mm256_set1_ps(0x1.000000p-24f /* 1/16777216 */), safe);
-			const __m256 t5 = _mm256_max_ps(t3, t4);
+			const __m256 t5 = EW_MAX_mm256_ps(t3, t4);
 			const __m256 t6 = _mm256_add_ps(safe, d);
 			const __m256 t7 = _mm256_div_ps(t6, t5);
 			const __m256 m = EW_FRACTION_mm256_ps(t7);
@@ -281,7 +281,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_1f_avx2(
 			const __m256 d = EW_SQRT_mm256_ps(d2);
 			const __m256 t3 = _mm256_sub_ps(safe, d);
 			const __m256 t4 = _mm256_mul_ps(_mm256_set1_ps(0x1.000000p-24f /* 1/16777216 */), safe);
-			const __m256 t5 = _mm256_max_ps(t3, t4);
+			const __m256 t5 = EW_MAX_mm256_ps(t3, t4);
 			const __m256 t6 = _mm256_add_ps(safe, d);
 			const __m256 t7 = _mm256_div_ps(t6, t5);
 			const __m256 m = EW_FRACTION_mm256_ps(t7);
@@ -361,7 +361,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_3f_avx2(
 			const __m256 d = EW_SQRT_mm256_ps(d2);
 			const __m256 t3 = _mm256_sub_ps(safe, d);
 			const __m256 t4 = _mm256_mul_ps(_mm256_set1_ps(0x1.000000p-24f /* 1/16777216 */), safe);
-			const __m256 t5 = _mm256_max_ps(t3, t4);
+			const __m256 t5 = EW_MAX_mm256_ps(t3, t4);
 			const __m256 t6 = _mm256_add_ps(safe, d);
 			const __m256 t7 = _mm256_div_ps(t6, t5);
 			const __m256 m = EW_FRACTION_mm256_ps(t7);
@@ -449,7 +449,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_3f_avx2(
 			const __m256 d = EW_SQRT_mm256_ps(d2);
 			const __m256 t3 = _mm256_sub_ps(safe, d);
 			const __m256 t4 = _mm256_mul_ps(_mm256_set1_ps(0x1.000000p-24f /* 1/16777216 */), safe);
-			const __m256 t5 = _mm256_max_ps(t3, t4);
+			const __m256 t5 = EW_MAX_mm256_ps(t3, t4);
 			const __m256 t6 = _mm256_add_ps(safe, d);
 			const __m256 t7 = _mm256_div_ps(t6, t5);
 			const __m256 m = EW_FRACTION_mm256_ps(t7);
@@ -548,7 +548,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_5f_avx2(
 			const __m256 d = EW_SQRT_mm256_ps(d2);
 			const __m256 t3 = _mm256_sub_ps(safe, d);
 			const __m256 t4 = _mm256_mul_ps(_mm256_set1_ps(0x1.000000p-24f /* 1/16777216 */), safe);
-			const __m256 t5 = _mm256_max_ps(t3, t4);
+			const __m256 t5 = EW_MAX_mm256_ps(t3, t4);
 			const __m256 t6 = _mm256_add_ps(safe, d);
 			const __m256 t7 = _mm256_div_ps(t6, t5);
 			const __m256 m = EW_FRACTION_mm256_ps(t7);
@@ -649,7 +649,7 @@ EW_ATTRIBUTE_AVX2 void ew_ring_radius_5f_avx2(
 			const __m256 d = EW_SQRT_mm256_ps(d2);
 			const __m256 t3 = _mm256_sub_ps(safe, d);
 			const __m256 t4 = _mm256_mul_ps(_mm256_set1_ps(0x1.000000p-24f /* 1/16777216 */), safe);
-			const __m256 t5 = _mm256_max_ps(t3, t4);
+			const __m256 t5 = EW_MAX_mm256_ps(t3, t4);
 			const __m256 t6 = _mm256_add_ps(safe, d);
 			const __m256 t7 = _mm256_div_ps(t6, t5);
 			const __m256 m = EW_FRACTION_mm256_ps(t7);

@@ -71,7 +71,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_inversef_avx512(
 			const __m512 t24 = EW_CHOOSE_mm512_ps(product, t22, t23);
 			const __m512 t25 = EW_CHOOSE_mm512_ps(t18, t21, t24);
 			const __m512 t26 = _mm512_div_ps(t25, t20);
-			const __m512 t27 = _mm512_max_ps(t26, _mm512_set1_ps(1.0f));
+			const __m512 t27 = EW_MAX_mm512_ps(t26, _mm512_set1_ps(1.0f));
 			const __m512 m = EW_FRACTION_mm512_ps(t27);
 			const __m512 t28 = _mm512_sub_ps(m, _mm512_set1_ps(1.0f));
 			const __m512 t29 = _mm512_add_ps(_mm512_set1_ps(1.0f), m);
@@ -143,7 +143,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_inversef_avx512(
 			const __m512 t24 = EW_CHOOSE_mm512_ps(product, t22, t23);
 			const __m512 t25 = EW_CHOOSE_mm512_ps(t18, t21, t24);
 			const __m512 t26 = _mm512_div_ps(t25, t20);
-			const __m512 t27 = _mm512_max_ps(t26, _mm512_set1_ps(1.0f));
+			const __m512 t27 = EW_MAX_mm512_ps(t26, _mm512_set1_ps(1.0f));
 			const __m512 m = EW_FRACTION_mm512_ps(t27);
 			const __m512 t28 = _mm512_sub_ps(m, _mm512_set1_ps(1.0f));
 			const __m512 t29 = _mm512_add_ps(_mm512_set1_ps(1.0f), m);
@@ -199,7 +199,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_1f_avx512(
 			const __m512 d = EW_SQRT_mm512_ps(d2);
 			const __m512 t3 = _mm512_sub_ps(safe, d);
 			const __m512 t4 = _mm512_mul_ps(_mm512_set1_ps(0x1.000000p-24f /* 1/16777216 */), safe);
-			const __m512 t5 = _mm512_max_ps(t3, t4);
+			const __m512 t5 = EW_MAX_mm512_ps(t3, t4);
 			const __m512 t6 = _mm512_add_ps(safe, d);
 			const __m512 t7 = _mm512_div_ps(t6, t5);
 			const __m512 m = EW_FRACTION_mm512_ps(t7);
@@ -263,7 +263,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_1f_avx512(
 			const __m512 d = EW_SQRT_mm512_ps(d2);
 			const __m512 t3 = _mm512_sub_ps(safe, d);
 			const __m512 t4 = _mm512_mul_ps(_mm512_set1_ps(0x1.000000p-24f /* 1/16777216 */), safe);
-			const __m512 t5 = _mm512_max_ps(t3, t4);
+			const __m512 t5 = EW_MAX_mm512_ps(t3, t4);
 			const __m512 t6 = _mm512_add_ps(safe, d);
 			const __m512 t7 = _mm512_div_ps(t6, t5);
 			const __m512 m = EW_FRACTION_mm512_ps(t7);
@@ -339,7 +339,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_3f_avx512(
 			const __m512 d = EW_SQRT_mm512_ps(d2);
 			const __m512 t3 = _mm512_sub_ps(safe, d);
 			const __m512 t4 = _mm512_mul_ps(_mm512_set1_ps(0x1.000000p-24f /* 1/16777216 */), safe);
-			const __m512 t5 = _mm512_max_ps(t3, t4);
+			const __m512 t5 = EW_MAX_mm512_ps(t3, t4);
 			const __m512 t6 = _mm512_add_ps(safe, d);
 			const __m512 t7 = _mm512_div_ps(t6, t5);
 			const __m512 m = EW_FRACTION_mm512_ps(t7);
@@ -422,7 +422,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_3f_avx512(
 			const __m512 d = EW_SQRT_mm512_ps(d2);
 			const __m512 t3 = _mm512_sub_ps(safe, d);
 			const __m512 t4 = _mm512_mul_ps(_mm512_set1_ps(0x1.000000p-24f /* 1/16777216 */), safe);
-			const __m512 t5 = _mm512_max_ps(t3, t4);
+			const __m512 t5 = EW_MAX_mm512_ps(t3, t4);
 			const __m512 t6 = _mm512_add_ps(safe, d);
 			const __m512 t7 = _mm512_div_ps(t6, t5);
 			const __m512 m = EW_FRACTION_mm512_ps(t7);
@@ -517,7 +517,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_5f_avx512(
 			const __m512 d = EW_SQRT_mm512_ps(d2);
 			const __m512 t3 = _mm512_sub_ps(safe, d);
 			const __m512 t4 = _mm512_mul_ps(_mm512_set1_ps(0x1.000000p-24f /* 1/16777216 */), safe);
-			const __m512 t5 = _mm512_max_ps(t3, t4);
+			const __m512 t5 = EW_MAX_mm512_ps(t3, t4);
 			const __m512 t6 = _mm512_add_ps(safe, d);
 			const __m512 t7 = _mm512_div_ps(t6, t5);
 			const __m512 m = EW_FRACTION_mm512_ps(t7);
@@ -613,7 +613,7 @@ EW_ATTRIBUTE_AVX512 void ew_ring_radius_5f_avx512(
 			const __m512 d = EW_SQRT_mm512_ps(d2);
 			const __m512 t3 = _mm512_sub_ps(safe, d);
 			const __m512 t4 = _mm512_mul_ps(_mm512_set1_ps(0x1.000000p-24f /* 1/16777216 */), safe);
-			const __m512 t5 = _mm512_max_ps(t3, t4);
+			const __m512 t5 = EW_MAX_mm512_ps(t3, t4);
 			const __m512 t6 = _mm512_add_ps(safe, d);
 			const __m512 t7 = _mm512_div_ps(t6, t5);
 			const __m512 m = EW_FRACTION_mm512_ps(t7);

@@ -98,6 +98,10 @@
 #define EW_SQRT_mm256_ps(a) _mm256_sqrt_ps(a)
 #define EW_SQRT_mm512_pd(a) _mm512_maskz_sqrt_pd(0xff, a)
 #define EW_SQRT_mm512_ps(a) _mm512_maskz_sqrt_ps(0xffff, a)
+#define EW_MAX_mm256_pd(a, b) _mm256_max_pd(a, b)
+#define EW_MAX_mm256_ps(a, b) _mm256_max_ps(a, b)
+#define EW_MAX_mm512_pd(a, b) _mm512_maskz_max_pd(0xff, a, b)
+#define EW_MAX_mm512_ps(a, b) _mm512_maskz_max_ps(0xffff, a, b)
 #define EW_CHOOSE_mm256_pd(a, b, c) _mm256_blendv_pd(c, b, \
 	_mm256_cmp_pd(a, _mm256_setzero_pd(), _CMP_GT_OQ))
 #define EW_CHOOSE_mm256_ps(a, b, c) _mm256_blendv_ps(c, b, \
@@ -120,10 +124,10 @@
 #define EW_EXPONENT_mm256_ps(a) \
 	_mm256_cvtepi32_ps(_mm256_srli_epi32(EW_BITS_mm256_ps(a), 23))
 #define EW_EXPONENT_mm512_pd(a) _mm512_sub_pd(_mm512_castsi512_pd(_mm512_or_si512( \
-	_mm512_srli_epi64(EW_BITS_mm512_pd(a), 52), _mm512_castpd_si512( \
+	_mm512_maskz_srli_epi64(0xff, EW_BITS_mm512_pd(a), 52), _mm512_castpd_si512( \
 	_mm512_set1_pd(0x1p52)))), _mm512_set1_pd(0x1p52))
 #define EW_EXPONENT_mm512_ps(a) \
-	_mm512_cvtepi32_ps(_mm512_srli_epi32(EW_BITS_mm512_ps(a), 23))
+	_mm512_maskz_cvtepi32_ps(0xffff, _mm512_maskz_srli_epi32(0xffff, EW_BITS_mm512_ps(a), 23))
 #define EW_FRACTION_mm256_pd(a) _mm256_castsi256_pd(_mm256_sub_epi64( \
 	_mm256_castpd_si256(a), \
 	_mm256_slli_epi64(_mm256_srli_epi64(EW_BITS_mm256_pd(a), 52), 52)))
@@ -132,10 +136,10 @@
 	_mm256_slli_epi32(_mm256_srli_epi32(EW_BITS_mm256_ps(a), 23), 23)))
 #define EW_FRACTION_mm512_pd(a) _mm512_castsi512_pd(_mm512_sub_epi64( \
 	_mm512_castpd_si512(a), \
-	_mm512_slli_epi64(_mm512_srli_epi64(EW_BITS_mm512_pd(a), 52), 52)))
+	_mm512_maskz_slli_epi64(0xff, _mm512_maskz_srli_epi64(0xff, EW_BITS_mm512_pd(a), 52), 52)))
 #define EW_FRACTION_mm512_ps(a) _mm512_castsi512_ps(_mm512_sub_epi32( \
 	_mm512_castps_si512(a), \
-	_mm512_slli_epi32(_mm512_srli_epi32(EW_BITS_mm512_ps(a), 23), 23)))
+	_mm512_maskz_slli_epi32(0xffff, _mm512_maskz_srli_epi32(0xffff, EW_BITS_mm512_ps(a), 23), 23)))
 #define EW_MAX_f64(a, b) vbslq_f64(vcgtq_f64(a, b), a, b)
 #define EW_MAX_f32(a, b) vbslq_f32(vcgtq_f32(a, b), a, b)
 #define EW_CHOOSE_f64(a, b, c) vbslq_f64(vcgtzq_f64(a), b, c)
