@@ -20,15 +20,17 @@ endif
 COMPILE = $(CC) $(STRICT) -ffp-contract=off $(SANITIZE) $(CFLAGS)
 
 # In the order of the pipeline: nothing calls a file that stands later.
-GEN     := util rational polynomial spec green dag fuse evaluate constants bound moments \
-           compensated curves logarithm distance conic scheme schedule proof modular kernel \
-           emit emit_edge emit_simd emit_ring emit_environment emit_list emit_header \
+GEN     := util rational polynomial expression analysis filter spec green dag fuse evaluate \
+           constants bound moments compensated curves logarithm distance conic scheme schedule \
+           proof modular kernel emit emit_edge emit_simd emit_ring emit_environment emit_list emit_header \
            bundle deliver main
 RUNTIME := $(addprefix runtime/,edgewise_runtime.h edgewise_precision.h edgewise_dispatch.c \
              edgewise_sides_template.h edgewise_columns_template.h edgewise_columns.c \
              edgewise_rings_template.h edgewise_edges_template.h \
              edgewise_closure_template.h edgewise_trust_template.h edgewise_batches_template.h \
              edgewise_rings.c)
+FILTERS := $(addprefix gen/filters/,box.filter tent.filter bspline2.filter bspline3.filter \
+             catmull_rom.filter mitchell.filter)
 GEN_OBJ := $(GEN:%=$(B)/obj/%.o)
 LIB     := $(B)/libedgewise.a
 SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
@@ -49,16 +51,19 @@ $(B)/obj $(B)/lib $(B)/tests:
 $(B)/embed: gen/embed.c | $(B)/obj
 	$(COMPILE) -o $@ $< $(LDFLAGS)
 
-$(B)/obj/embedded.c: $(B)/embed $(RUNTIME)
-	$(B)/embed $(RUNTIME) >$@
+$(B)/obj/embedded_runtime.c: $(B)/embed $(RUNTIME)
+	$(B)/embed embedded_runtime $(RUNTIME) >$@
 
-$(B)/obj/embedded.o: $(B)/obj/embedded.c gen/gen.h
+$(B)/obj/embedded_filters.c: $(B)/embed $(FILTERS)
+	$(B)/embed embedded_filters $(FILTERS) >$@
+
+$(B)/obj/embedded_%.o: $(B)/obj/embedded_%.c gen/gen.h
 	$(CC) $(CFLAGS) $(SANITIZE) -Wno-overlength-strings -std=c11 -Igen -c -o $@ $<
 
 $(B)/obj/%.o: gen/%.c gen/gen.h gen/ops.def | $(B)/obj
 	$(COMPILE) -std=c11 -D_POSIX_C_SOURCE=200809L -c -o $@ $<
 
-$(B)/gen: $(GEN_OBJ) $(B)/obj/embedded.o
+$(B)/gen: $(GEN_OBJ) $(B)/obj/embedded_runtime.o $(B)/obj/embedded_filters.o
 	$(COMPILE) -o $@ $^ $(LDFLAGS)
 
 # ---- emit, and build the library from what was emitted ----
@@ -195,7 +200,8 @@ $(B)/monomials.stamp: $(B)/gen
 	@touch $@
 
 $(B)/tests/units $(B)/tests/constants: $(B)/tests/%: tests/%.c tests/check.h \
-		$(filter-out %/main.o %/deliver.o %/bundle.o,$(GEN_OBJ)) | $(B)/tests
+		$(filter-out %/main.o %/deliver.o %/bundle.o,$(GEN_OBJ)) \
+		$(B)/obj/embedded_filters.o | $(B)/tests
 	$(TEST_BUILD) -o $@ $(filter %.c %.o,$^) $(LDFLAGS) $(MATH)
 
 $(B)/tests/polynomials: tests/polynomials.c tests/reference.c $(B)/polynomials.stamp | $(B)/tests

@@ -165,15 +165,25 @@ Text bundle_single_header(const Files *files, const Request *request)
 
 /* ---- dependencies ---- */
 
-Text bundle_depfile(const Files *outputs)
+static void add_path(Text *text, const char *path)
+{
+	for (const char *p = path; *p; ++p)
+		text_add(text, strchr(" #:%\\", *p) ? "\\%c" : *p == '$' ? "$%c" : "%c", *p);
+}
+
+Text bundle_depfile(const Files *outputs, const Request *request)
 {
 	Text text = { 0 };
 	for (int i = 0; i < outputs->count; ++i) {
 		text_add(&text, "%s", i ? " \\\n " : "");
-		for (const char *p = outputs->file[i].name; *p; ++p)
-			text_add(&text, strchr(" #:%\\", *p) ? "\\%c" : *p == '$' ? "$%c" : "%c",
-				*p);
+		add_path(&text, outputs->file[i].name);
 	}
-	text_add(&text, ":\n");
+	text_add(&text, ":");
+	for (int i = 0; i < request->filters; ++i)
+		if (request->filter[i].path) {
+			text_add(&text, " \\\n ");
+			add_path(&text, request->filter[i].path);
+		}
+	text_add(&text, "\n");
 	return text;
 }

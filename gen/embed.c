@@ -1,8 +1,8 @@
-/* embed.c - writes the files of the runtime as C strings, so that gen can emit
- * a self-contained folder.
+/* embed.c - writes files as C strings, so that gen can emit a self-contained folder and
+ * knows filters of its own.
  *
- * Built and run before gen: embed FILE... >embedded.c. Lines become string literals;
- * nothing is interpreted. */
+ * Built and run before gen: embed TABLE FILE... >table.c, a const Embedded TABLE[] that ends with
+ * a NULL name. Lines become string literals; nothing is interpreted. */
 #include <stdio.h>
 #include <string.h>
 
@@ -39,15 +39,19 @@ static int write_file(const char *path, int number)
 
 int main(int argc, char **argv)
 {
+	if (argc < 3) {
+		fputs("usage: embed TABLE FILE...\n", stderr);
+		return 2;
+	}
 	puts("#include \"gen.h\"\n");
-	for (int i = 1; i < argc; ++i)
-		if (write_file(argv[i], i))
+	for (int i = 2; i < argc; ++i)
+		if (write_file(argv[i], i - 1))
 			return 1;
-	puts("const Embedded embedded_runtime[] = {");
-	for (int i = 1; i < argc; ++i) {
+	printf("const Embedded %s[] = {\n", argv[1]);
+	for (int i = 2; i < argc; ++i) {
 		const char *slash = strrchr(argv[i], '/');
 		printf("{ \"%s\", file%d, sizeof file%d - 1 },\n",
-			slash ? slash + 1 : argv[i], i, i);
+			slash ? slash + 1 : argv[i], i - 1, i - 1);
 	}
 	puts("{ NULL, NULL, 0 }\n};");
 	return fflush(stdout) || ferror(stdout);

@@ -397,6 +397,7 @@ void emit_header(Files *files, const Request *request, const Kernels *kernels)
 	const char *name = "edgewise.h";
 	Text *text = file_new(files, name);
 	emit_banner(text, name, "exact integrals over polygons, as sums over edges", request);
+	text_add(text, "%s", spec_files(request));
 	text_add(text, "#ifndef EDGEWISE_H\n#define EDGEWISE_H\n\n#include <stddef.h>\n"
 		"#include <stdint.h>\n");
 	add_comment(text, PREAMBLE);

@@ -34,6 +34,8 @@ char *text_take(Text *text);                 /* copies it to the arena and frees
 void text_free(Text *text);
 uint64_t text_hash(const char *data, size_t size);   /* FNV-1a, 64 bits */
 
+typedef struct { const char *name, *text; size_t size; } Embedded;   /* a file, by embed.c */
+
 enum { EXIT_DONE = 0, EXIT_DIFFERENT = 1, EXIT_USAGE = 2 };
 /* The message with file, line, column and caret. */
 typedef char *Locate(const void *reader, const char *message);
@@ -103,8 +105,72 @@ Poly poly_substitute(Poly a, const int *vars, const Poly *by, int count);
 int  poly_equal(Poly a, Poly b);
 int  poly_degree(Poly a, int var);
 Rat  poly_content(Poly a);                   /* c > 0 with a / c integer and coprime */
-/* times: " " in mathematics, "*" in the grammar of spec.c */
+/* times: " " in mathematics, "*" in the grammar of expression.c */
 char *poly_text(Poly a, const char *times);
+
+/* ---- expression.c: what users write: names, numbers, polynomials, and the spot of an error --- */
+
+enum { MAX_NAME = 40 };
+typedef struct {
+	const char *what, *text;             /* what the messages call it; ends with a zero */
+	size_t at;                           /* next character */
+	int nesting;
+	int lines;                           /* the end of a line, and a #, end what is read */
+	const char *no_y;                    /* why there may be no y in it, or NULL */
+} Reader;
+
+char *reader_locate(const void *reader, const char *message);   /* a Locate */
+void syntax_error(const Reader *reader, size_t at, const char *message)
+	__attribute__((noreturn));
+int  reader_line(const Reader *reader, size_t at);
+int  reader_peek(Reader *reader);            /* skips blanks; 0 at the end */
+int  is_digit(int c);
+Rat  read_number(Reader *reader);            /* integer or decimal, at its first digit */
+const char *read_small(const char *text, int *value);   /* 0 .. MAX_DEGREE; NULL: it is not */
+Poly read_sum(Reader *reader);               /* an expression in VAR_X, VAR_Y */
+int  degree_in_xy(Poly a);                   /* in x and y */
+size_t utf8_size(const char *text);          /* bytes of its first character; 0: it is none */
+int  is_listed(const char *list, const char *name);   /* " this that " */
+void check_identifier(const char *option, const char *name);
+void check_free(const char *option, const char *name);   /* not a function of the library */
+char *name_stem(const char *name);           /* without the f of a float twin */
+
+/* ---- analysis.c: what holds of a filter, exactly --------------------------------------------- */
+
+/* Separable: y0 = y1 = 0, value in VAR_X. */
+typedef struct { Rat x0, x1, y0, y1; Poly value; } Piece;
+
+typedef struct {
+	char *name;                          /* identifier: mitchell, catmull_rom */
+	const char *path;                    /* the file it was read from, or NULL */
+	int   builtin;
+	int   separable;                     /* k(x) k(y), else bivariate */
+	int   even;                          /* as declared: k(-x) = k(x) */
+	Piece *piece; int pieces;            /* ascending (x, then y), even ones on both sides; not
+	                                      * listed where 0, joined where one polynomial */
+	int   degree;                        /* separable: of k; bivariate: total degree */
+	Rat   first_x, last_x, first_y, last_y;      /* support */
+	int   size_x, size_y;                /* pixels that the support spans, if all knots are whole
+	                                      * pixels apart on that axis; else 0 */
+	Rat   integral;                      /* over the plane */
+	int   continuity;                    /* -1: it jumps; else how many derivatives, of k or f */
+	int   unity;                         /* the sum over whole-pixel shifts is 1 */
+} Filter;
+
+void analyse(Filter *filter);                /* from name, kind and pieces in any order */
+
+/* ---- filter.c: filter files ------------------------------------------------------------------ */
+
+extern const Embedded embedded_filters[];    /* gen/filters/; ends with a NULL name */
+
+Filter filter_read(const char *word);        /* a built-in filter, or a path */
+Filter filter_parse(const char *what, const char *text, size_t size);   /* text[size] is 0 */
+const char *const *filter_names(void);       /* of the built-in ones; ends with NULL */
+int    filter_is_builtin(const char *word);
+char  *filter_canonical(const Filter *filter);   /* a file that reads as the same filter */
+char  *filter_summary(const Filter *filter); /* the analysis, on one line */
+void   filter_describe(Text *text, const Filter *filter);
+void   filter_show(Text *text, const Filter *filter, const char *format_name);   /* --show */
 
 /* ---- spec.c: what is asked for, and its grammar ---------------------------------------------- */
 
@@ -122,8 +188,9 @@ enum { TARGET_PORTABLE = 1, TARGET_FMA = 2, TARGET_AVX2 = 4, TARGET_AVX512 = 8, 
 enum { ALL_TARGETS = 31, TARGETS = 5 };
 extern const char *const target_names[TARGETS];   /* in the order of the bits */
 
-enum { FAMILY_MOMENTS = 1, FAMILY_CURVES = 2, FAMILY_DISTANCE = 4, FAMILY_CLOSURE = 8 };
-enum { ALL_FAMILIES = 15, FAMILIES = 4 };
+enum { FAMILY_MOMENTS = 1, FAMILY_CURVES = 2, FAMILY_DISTANCE = 4, FAMILY_CLOSURE = 8,
+       FAMILY_COVERAGE = 16, FAMILY_FILTERS = 32 };
+enum { ALL_FAMILIES = 63, FAMILIES = 6 };
 extern const char *const family_names[FAMILIES];
 enum { EDGE_LINE = 1, EDGE_QUAD = 2, EDGE_CONIC = 4, EDGE_CUBIC = 8 };
 enum { ALL_EDGES = 15, EDGES = 4, CURVE_DEGREE = 8 };   /* of curves, unless asked for */
@@ -135,6 +202,7 @@ typedef struct {
 	int curves;                          /* those of curves, or -1 */
 	Integrand *monomial;   int monomials;   /* single-edge functions and single-moment rings */
 	Integrand *polynomial; int polynomials;
+	Filter *filter; int filters;         /* the built-in ones first, if the family is wanted */
 	unsigned precisions, targets;
 	const char *scheme;                  /* preferred where it applies, or NULL */
 	const char *prefix;                  /* NULL: ew and edgewise */
@@ -147,6 +215,7 @@ int  spec_degree(const char *text);          /* 0 .. MAX_DEGREE */
 /* A bit set. */
 unsigned spec_list(const char *option, const char *text, const char *const *words, int count);
 void spec_prefix(const char *text);
+char *spec_files(const Request *request);    /* comments: the files that the command names */
 int  spec_has_rings(const Request *request);
 void spec_complete(Request *request);        /* defaults, monomials of the family, names, command */
 
@@ -479,15 +548,14 @@ void emit_manifest(Text *text, const Request *request, const Kernels *kernels);
 
 /* ---- bundle.c: what the user gets: runtime, prefix, single header, manifest ------------------ */
 
-typedef struct { const char *name, *text; size_t size; } Embedded;
-extern const Embedded embedded_runtime[];    /* runtime/, by embed.c; ends with a NULL name */
+extern const Embedded embedded_runtime[];    /* runtime/; ends with a NULL name */
 
 void bundle_runtime(Files *files);
 void bundle_rename(Files *files, const char *prefix);
 char *bundle_name(const char *name, const char *prefix);   /* edgewise_x.c under this prefix */
 Text bundle_manifest(const Files *files, const Request *request, const Kernels *kernels);
 Text bundle_single_header(const Files *files, const Request *request);
-Text bundle_depfile(const Files *outputs);
+Text bundle_depfile(const Files *outputs, const Request *request);
 
 /* ---- deliver.c: the only file that writes to disk -------------------------------------------- */
 

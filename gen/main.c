@@ -25,10 +25,12 @@ static const char USAGE[] =
 	"\n"
 	"what to emit (nothing asked: the library with all moments to degree 4)\n"
 	"  --max-degree N         the library with all moments x^m y^n, m + n <= N (0..32)\n"
-	"  --families LIST        only these: moments,curves,distance,closure (curves brings "
-	"moments)\n"
+	"  --families LIST        only these: moments,curves,distance,closure,coverage,filters\n"
+	"                         (curves brings moments)\n"
 	"  --monomial xMyN        one monomial (repeatable)\n"
 	"  --polynomial NAME=EXPR a polynomial in x and y, such as soft='(1-x)*(1-y)' "
+	"(repeatable)\n"
+	"  --filter FILTER        a built-in filter, such as mitchell, or a filter file "
 	"(repeatable)\n"
 	"  --edges LIST           line,quad,conic,cubic (default: all; of monomials: line)\n"
 	"  --precision LIST       double,float (default: both)\n"
@@ -50,10 +52,14 @@ static const char USAGE[] =
 	"  --dry-run              write nothing; list what would be written\n"
 	"other\n"
 	"  --show xMyN            the coefficient matrix of a monomial\n"
-	"  --format FORMAT        of --show: text, latex, json or c (default: text)\n"
+	"  --show FILTER          the pieces of a filter and what holds of it (FILTER: built-in, "
+	"or a path with . or /)\n"
+	"  --format FORMAT        of --show: text, json; of monomials latex, c too (default: "
+	"text)\n"
 	"  -d LETTERS             dump after passes: p polynomials, d dag, f fused, s schedule; "
 	"nothing is written\n"
-	"  --list                 families, edges, targets, precisions and schemes\n"
+	"  --list                 families, edges, targets, precisions, schemes and built-in "
+	"filters\n"
 	"  --quiet, --verbose     say nothing, or name every file\n"
 	"  --help, --version\n"
 	"\n"
@@ -71,13 +77,23 @@ static void set_once(const char **place, const char *option, const char *value)
 	*place = value;
 }
 
+/* A copy of a list with room for one more. */
+static void *longer(const void *list, int count, size_t size)
+{
+	void *copy = allocate((size_t)(count + 1) * size);
+	return count ? memcpy(copy, list, (size_t)count * size) : copy;
+}
+
 static void add_integrand(Integrand **list, int *count, Integrand integrand)
 {
-	Integrand *longer = allocate((size_t)(*count + 1) * sizeof *longer);
-	for (int i = 0; i < *count; ++i)
-		longer[i] = (*list)[i];
-	longer[(*count)++] = integrand;
-	*list = longer;
+	*list = longer(*list, *count, sizeof **list);
+	(*list)[(*count)++] = integrand;
+}
+
+static void add_filter(Request *request, Filter filter)
+{
+	request->filter = longer(request->filter, request->filters, sizeof *request->filter);
+	request->filter[request->filters++] = filter;
 }
 
 /* Options without a value; 0 if it is none of them. */
@@ -132,7 +148,8 @@ static int schemes(void)
 static int read_request(Options *o, const char *option, const char *value)
 {
 	static const char *const names[] = { "--max-degree", "--families", "--monomial",
-		"--polynomial", "--precision", "--targets", "--scheme", "--edges" };
+		"--polynomial", "--precision", "--targets", "--scheme", "--edges",
+		"--filter" };
 	Request *request = &o->request;
 	int which = 0;
 	while (which < LENGTH(names) && strcmp(option, names[which]) != 0)
@@ -142,7 +159,7 @@ static int read_request(Options *o, const char *option, const char *value)
 	if (!value)
 		return 1;
 	o->emission = names[which];
-	int repeatable = which == 2 || which == 3;
+	int repeatable = which == 2 || which == 3 || which == 8;
 	if (o->seen & 1u << which && !repeatable)
 		fatal(EXIT_USAGE, "%s is given twice", option);
 	o->seen |= 1u << which;
@@ -173,6 +190,9 @@ static int read_request(Options *o, const char *option, const char *value)
 		break;
 	case 7:
 		request->edges = spec_list(option, value, edge_names, EDGES);
+		break;
+	case 8:
+		add_filter(request, filter_read(value));
 		break;
 	}
 	return 1;
@@ -280,6 +300,34 @@ static void print_list(void)
 	print_words("targets", target_names, TARGETS);
 	print_words("precisions", PRECISIONS, LENGTH(PRECISIONS));
 	print_words("schemes", scheme_names(), schemes());
+	printf("filters:\n");
+	for (const char *const *name = filter_names(); *name; ++name) {
+		Filter filter = filter_read(*name);
+		printf("  %-12s %s\n", *name, filter_summary(&filter));
+	}
+}
+
+static void show(const Options *o)
+{
+	Text text = { 0 };
+	const char *format_name = o->format ? o->format : "text";
+	if (filter_is_builtin(o->show) || strpbrk(o->show, "./")) {
+		Filter filter = filter_read(o->show);
+		filter_show(&text, &filter, format_name);
+	} else {
+		Integrand monomial = spec_monomial(o->show);
+		emit_show(&text, &monomial, format_name);
+	}
+	print_text(&text);
+}
+
+/* What holds of the filters that --filter asked for. */
+static char *describe_filters(const Request *request)
+{
+	Text text = { 0 };
+	for (int i = 0; i < request->filters; ++i)
+		filter_describe(&text, &request->filter[i]);
+	return text_take(&text);
 }
 
 static void add_file(Files *files, const char *name, Text text)
@@ -324,7 +372,7 @@ static int emit(const Options *o)
 	else if (o->single_header)
 		text_free(&manifest);
 	if (o->depfile)
-		add_file(&single, o->depfile, bundle_depfile(&outputs));
+		add_file(&single, o->depfile, bundle_depfile(&outputs, request));
 	return deliver(&files, &single, &how);
 }
 
@@ -333,19 +381,18 @@ int main(int argc, char **argv)
 	(void)argc;
 	Options o = read_options(argv);
 	check_options(&o);
-	if (o.show) {
-		Text text = { 0 };
-		Integrand monomial = spec_monomial(o.show);
-		emit_show(&text, &monomial, o.format ? o.format : "text");
-		print_text(&text);
-		return EXIT_DONE;
-	}
 	int status = EXIT_DONE;
-	if (o.list) {
+	if (o.show) {
+		show(&o);
+	} else if (o.list) {
 		print_list();
 	} else {
+		const Delivery *how = &o.delivery;
+		const char *analysis = describe_filters(&o.request);
 		spec_complete(&o.request);
 		status = emit(&o);
+		if (!o.dump && !how->quiet && !how->check && !how->dry_run)
+			fputs(analysis, stdout);
 	}
 	if (fflush(stdout) != 0 || ferror(stdout))
 		fatal(EXIT_DIFFERENT, "cannot write to standard output");
