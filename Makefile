@@ -21,8 +21,8 @@ COMPILE = $(CC) $(STRICT) -ffp-contract=off $(SANITIZE) $(CFLAGS)
 
 # In the order of the pipeline: nothing calls a file that stands later.
 GEN     := util rational polynomial expression analysis filter spec green dag fuse evaluate \
-           constants bound moments compensated curves logarithm distance conic scheme schedule \
-           proof modular kernel emit emit_edge emit_simd emit_ring emit_environment emit_list emit_header \
+           constants bound moments compensated curves logarithm distance conic cells window deposit scheme schedule \
+           proof residue modular pieces kernel emit emit_edge emit_simd emit_ring emit_environment emit_list emit_header \
            bundle deliver main
 RUNTIME := $(addprefix runtime/,edgewise_runtime.h edgewise_precision.h edgewise_dispatch.c \
              edgewise_sides_template.h edgewise_columns_template.h edgewise_columns.c \

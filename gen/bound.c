@@ -102,7 +102,10 @@ Bound bound_path(const Dag *dag)
 		}
 		int a = depth[node->arg[0]];
 		int b = op_operands(node->op) > 1 ? depth[node->arg[1]] : 0;
-		if (node->op == OP_MUL || node->op == OP_DIV)
+		int c = op_operands(node->op) > 2 ? depth[node->arg[2]] : 0;
+		if (node->op == OP_MIN || node->op == OP_MAX || node->op == OP_CHOOSE)
+			depth[i] = a > b ? a > c ? a : c : b > c ? b : c;
+		else if (node->op == OP_MUL || node->op == OP_DIV)
 			depth[i] = a + b + !(is_power_of_two(&dag->node[node->arg[0]])
 				|| is_power_of_two(&dag->node[node->arg[1]]));
 		else

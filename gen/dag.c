@@ -76,7 +76,7 @@ Dag *dag_new(const char *scheme)
 
 int window_points(int window)
 {
-	static const int points[WINDOWS] = { 2, 3, 3, 3, 4 };
+	static const int points[WINDOWS] = { 2, 3, 3, 3, 4, 2 };
 	return points[window];
 }
 
@@ -227,9 +227,6 @@ Ref dag_name(Dag *dag, Ref a, const char *name)
 
 void dag_out(Dag *dag, Ref root)
 {
-	for (int k = 0; k < dag->outs; ++k)
-		if (dag->out[k] == root)
-			bug("two outputs are one node");
 	Ref *out = allocate((size_t)(dag->outs + 1) * sizeof *out);
 	memcpy(out, dag->out, (size_t)dag->outs * sizeof *out);
 	out[dag->outs++] = root;
@@ -238,7 +235,8 @@ void dag_out(Dag *dag, Ref root)
 
 void dag_accumulate(Dag *dag, Ref value)
 {
-	dag_out(dag, dag_add(dag, dag_accumulator(dag, dag->outs), value));
+	Ref sum = dag_add(dag, dag_accumulator(dag, dag->outs), value);
+	dag_out(dag, sum);
 }
 
 int *dag_uses(const Dag *dag)
@@ -268,6 +266,7 @@ Poly dag_expand_node(const Node *node, const Poly *done)
 			return poly_scale(a, rat_div(rat(1, 1), b.term[0].coef));
 		break;
 	case OP_ABS:   return poly_abs(a);
+	case OP_ROUND: return a;
 	case OP_FMA:   return poly_add(poly_mul(a, b), c);
 	case OP_ERROR:
 	case OP_FMS:   return poly_sub(poly_mul(a, b), c);
@@ -294,7 +293,7 @@ static Ref mirrored_input(Dag *dag, Mono input)
 			int point = (var - VAR_X0) / 2, axis = (var - VAR_X0) % 2;
 			return dag_var(dag, VAR_X0 + 2 * (points - 1 - point) + axis);
 		}
-	return input == mono_var(VAR_W, 1) ? dag_var(dag, VAR_W) : NONE;
+	return dag_input(dag, input);          /* a weight, or the corner of a cell */
 }
 
 /* The sign of an operation on operands with these signs, 0 if it does not just change sign. */
@@ -310,8 +309,25 @@ static int sign_of(int op, int a, int b, int c)
 	case OP_FMS:    return a * b == c ? c : 0;
 	case OP_CHOOSE: return a > 0 && b == c ? b : 0;
 	case OP_ABS:    return 1;
+	case OP_ROUND:  return b > 0 ? a : 0;
 	}
 	return a > 0 && b > 0 ? 1 : 0;
+}
+
+/* Are the two ends here put in an order? The smaller or larger of both is the same in the mirror;
+ * so is a choice by the sign of a difference, except where that is 0: there the edge is vertical,
+ * and what is chosen meets a factor that is exactly 0. */
+static int is_unordered(const Dag *dag, const Node *node, const Ref *arg, const int *s)
+{
+	if (node->op == OP_MIN || node->op == OP_MAX)
+		return arg[0] == node->arg[1] && arg[1] == node->arg[0];
+	return node->op == OP_CHOOSE && s[0] < 0 && dag->node[arg[0]].op == OP_SUB;
+}
+
+static int are_opposite(const Dag *dag, Ref a, Ref b)
+{
+	return dag->node[a].op == OP_CONST && dag->node[b].op == OP_CONST
+		&& rat_compare(dag->node[a].value, rat_neg(dag->node[b].value)) == 0;
 }
 
 /* The node that computes the mirror image of `node`, up to the sign it returns;
@@ -321,6 +337,8 @@ static Ref mirror(Dag *dag, const Node *node, const Ref *image, const int *sign,
 	Ref arg[3] = { NONE, NONE, NONE };
 	int s[3] = { 1, 1, 1 };
 	*result_sign = 1;
+	if (node->op == OP_INPUT && dag->window == WINDOW_VERTEX)
+		return NONE;
 	if (node->op == OP_CONST)
 		return dag_const(dag, node->value);
 	if (node->op == OP_INPUT && mono_accumulator_of(node->input) >= 0) {
@@ -334,6 +352,16 @@ static Ref mirror(Dag *dag, const Node *node, const Ref *image, const int *sign,
 		s[k] = sign[node->arg[k]];
 		if (arg[k] == NONE)
 			return NONE;
+	}
+	if (node->op == OP_CHOOSE && s[0] < 0 && are_opposite(dag, node->arg[1], node->arg[2])) {
+		*result_sign = -1;
+		return dag_node(dag, OP_CHOOSE, arg[0], arg[1], arg[2]);
+	}
+	if (is_unordered(dag, node, arg, s)) {
+		Ref other = arg[1];
+		arg[1] = arg[node->op == OP_CHOOSE ? 2 : 0];
+		arg[node->op == OP_CHOOSE ? 2 : 0] = other;
+		s[0] = 1;
 	}
 	*result_sign = sign_of(node->op, s[0], s[1], s[2]);
 	return *result_sign ? dag_node(dag, node->op, arg[0], arg[1], arg[2]) : NONE;

@@ -26,6 +26,14 @@ const Load loads[LOADS] = {
 	{ "x1", "x", 1, WINDOW_CUBIC }, { "y1", "y", 1, WINDOW_CUBIC },
 	{ "x2", "x", 2, WINDOW_CUBIC }, { "y2", "y", 2, WINDOW_CUBIC },
 	{ "x3", "x", 3, WINDOW_CUBIC }, { "y3", "y", 3, WINDOW_CUBIC },
+	{ "x0", "x", 0, WINDOW_CELL }, { "y0", "y", 0, WINDOW_CELL },
+	{ "x1", "x", 1, WINDOW_CELL }, { "y1", "y", 1, WINDOW_CELL },
+};
+
+const Constant constants[CONSTANTS] = {
+	{ "cx", 0, WINDOW_VERTEX },
+	{ "u0", 0, WINDOW_CELL }, { "u1", 1, WINDOW_CELL },
+	{ "v0", 2, WINDOW_CELL }, { "v1", 3, WINDOW_CELL },
 };
 
 static const Vector avx2 = {
@@ -185,6 +193,15 @@ static int is_last(const Printer *printer, Ref ref)
 	return output_of(printer->program->dag, ref) >= 0 && printer->uses[ref] == 1;
 }
 
+/* The corners (x2,y2), (x3,y3) of a cell are called (u0,v0), (u1,v1). */
+static const char *input_name(const Dag *dag, int var)
+{
+	static const char *const corner[] = { "u0", "v0", "u1", "v1" };
+	if (dag->window == WINDOW_CELL && var >= VAR_X2 && var <= VAR_Y3)
+		return corner[var - VAR_X2];
+	return var_name(var);
+}
+
 /* Names for all operations that get a statement, in the order of evaluation. */
 static void name_values(Printer *printer)
 {
@@ -200,7 +217,7 @@ static void name_values(Printer *printer)
 				printer->style->first + accumulator);
 		for (int var = 0; var < VARS && accumulator < 0 && is_input; ++var)
 			if (node->input == mono_var(var, 1))
-				printer->name[i] = var_name(var);
+				printer->name[i] = input_name(dag, var);
 	}
 	for (int at = 0; at < program->count; ++at) {
 		Ref ref = program->order[at];
@@ -346,6 +363,15 @@ static unsigned char *accumulating(const Dag *dag)
 	return depends;
 }
 
+/* The same for all items. */
+static int is_constant(const Dag *dag, const Node *node)
+{
+	const int is_corner = dag->window == WINDOW_CELL && (node->input == mono_var(VAR_X2, 1)
+		|| node->input == mono_var(VAR_Y2, 1) || node->input == mono_var(VAR_X3, 1)
+		|| node->input == mono_var(VAR_Y3, 1));
+	return node->op == OP_INPUT && (is_corner || node->input == mono_var(VAR_CX, 1));
+}
+
 static void add_chain(Text *text, const Printer *printer, const unsigned char *depends, Ref ref)
 {
 	const Node *node = &printer->program->dag->node[ref];
@@ -368,7 +394,7 @@ void emit_stored(Text *text, const Program *program, const Style *style, int ite
 	Printer printer[2] = { printer_of(program, style), printer_of(program, style) };
 	for (int i = 0; i < dag->count; ++i)
 		if (printer[1].name[i] && !(depends[i] && dag->node[i].op == OP_INPUT)
-		    && dag->node[i].input != mono_var(VAR_CX, 1))
+		    && !is_constant(dag, &dag->node[i]))
 			printer[1].name[i] = format("%s_2", printer[1].name[i]);
 	for (int at = 0; at < program->count; ++at) {
 		Ref ref = program->order[at];

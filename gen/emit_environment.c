@@ -23,6 +23,8 @@ static void add_scalar(Text *text, const Format *f)
 	const char *real = f->real, *suffix = f->suffix;
 	text_add(text, "static inline %s ew_ring_max%s(%s a, %s b)\n{\n\treturn a > b ? a : b;\n}\n",
 		real, suffix, real, real);
+	text_add(text, "static inline %s ew_ring_min%s(%s a, %s b)\n{\n\treturn a < b ? a : b;\n}\n",
+		real, suffix, real, real);
 	text_add(text, "static inline %s ew_ring_choose%s(%s a, %s b, %s c)\n{\n"
 		"\treturn a > 0 ? b : c;\n}\n", real, suffix, real, real, real);
 	text_add(text, "static inline %s ew_ring_bits%s(%s a)\n{\n\t%s bits;\n"
@@ -49,9 +51,13 @@ static const char *const X86 =
 	"#define EW_SQRT_mm512_pd(a) _mm512_maskz_sqrt_pd(0xff, a)\n"
 	"#define EW_SQRT_mm512_ps(a) _mm512_maskz_sqrt_ps(0xffff, a)\n"
 	"#define EW_MAX_mm256_pd(a, b) _mm256_max_pd(a, b)\n"
+	"#define EW_MIN_mm256_pd(a, b) _mm256_min_pd(a, b)\n"
 	"#define EW_MAX_mm256_ps(a, b) _mm256_max_ps(a, b)\n"
+	"#define EW_MIN_mm256_ps(a, b) _mm256_min_ps(a, b)\n"
 	"#define EW_MAX_mm512_pd(a, b) _mm512_maskz_max_pd(0xff, a, b)\n"
+	"#define EW_MIN_mm512_pd(a, b) _mm512_maskz_min_pd(0xff, a, b)\n"
 	"#define EW_MAX_mm512_ps(a, b) _mm512_maskz_max_ps(0xffff, a, b)\n"
+	"#define EW_MIN_mm512_ps(a, b) _mm512_maskz_min_ps(0xffff, a, b)\n"
 	"#define EW_CHOOSE_mm256_pd(a, b, c) _mm256_blendv_pd(c, b, \\\n"
 	"\t_mm256_cmp_pd(a, _mm256_setzero_pd(), _CMP_GT_OQ))\n"
 	"#define EW_CHOOSE_mm256_ps(a, b, c) _mm256_blendv_ps(c, b, \\\n"
@@ -93,7 +99,9 @@ static const char *const X86 =
 
 static const char *const NEON =
 	"#define EW_MAX_f64(a, b) vbslq_f64(vcgtq_f64(a, b), a, b)\n"
+	"#define EW_MIN_f64(a, b) vbslq_f64(vcltq_f64(a, b), a, b)\n"
 	"#define EW_MAX_f32(a, b) vbslq_f32(vcgtq_f32(a, b), a, b)\n"
+	"#define EW_MIN_f32(a, b) vbslq_f32(vcltq_f32(a, b), a, b)\n"
 	"#define EW_CHOOSE_f64(a, b, c) vbslq_f64(vcgtzq_f64(a), b, c)\n"
 	"#define EW_CHOOSE_f32(a, b, c) vbslq_f32(vcgtzq_f32(a), b, c)\n"
 	"#define EW_BITS_f64(a) \\\n"
@@ -166,7 +174,7 @@ void emit_environment(Text *text, const Request *request)
 	add_compiler(text, request);
 	text_add(text, "\n/* Operations that are more than one instruction; see ew_ring_choose, "
 		"ew_ring_exponent and ew_ring_fraction. */\n%s%s", X86, NEON);
-	text_add(text, "\n/* a > b ? a : b; a > 0 ? b : c; for a >= 1 the integer k with a 2^-k in "
+	text_add(text, "\n/* a > b ? a : b; a < b ? a : b; a > 0 ? b : c; for a >= 1 the integer k with a 2^-k in "
 		"[sqrt 1/2, sqrt 2),\n * and that number. */\n");
 	for (int p = 0; p < precision_count; ++p)
 		if (request->precisions & precisions[p].bit)

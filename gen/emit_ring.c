@@ -26,6 +26,11 @@ static char *describe(const Ring *ring)
 		return format("r^%d over the triangles of the edges and the origin", ring->m);
 	if (is_family(ring, "closure"))
 		return format("x0 y0 - x1 y1");
+	if (is_family(ring, "coverage"))
+		return format("area below an edge in the rectangle [u0,u1] x [v0,v1], "
+			"counterclockwise positive");
+	if (is_family(ring, "filter"))
+		return format("integral of the filter %s, centred at (0,0)", ring->name);
 	if (is_family(ring, "conic"))
 		return format("all moments of x^m y^n, m + n <= %d, of the cap of a conic edge",
 			ring->m);
@@ -91,6 +96,14 @@ static void add_loop(Text *text, const Ring *ring, const Program *program,
 	text_add(text, "\t\t}\n");
 }
 
+static int has_constants(const Ring *ring)
+{
+	for (int i = 0; i < CONSTANTS; ++i)
+		if (constants[i].window == ring->window)
+			return 1;
+	return 0;
+}
+
 static void add_kernel(Text *text, const Ring *ring, const Target *target,
 	const Precision *precision)
 {
@@ -105,7 +118,7 @@ static void add_kernel(Text *text, const Ring *ring, const Target *target,
 		text_add(text, "%s ", target->attribute);
 	add_signature(text, ring, target, precision);
 	text_add(text, "\n{\n");
-	if (ring->window != WINDOW_VERTEX)
+	if (!has_constants(ring))
 		text_add(text, "\t(void)origin;\n");
 	if (target->vector) {
 		emit_vector_body(text, ring, target, precision);
@@ -113,8 +126,11 @@ static void add_kernel(Text *text, const Ring *ring, const Target *target,
 		return;
 	}
 	text_add(text, "\tfor (size_t lane = 0; lane < step && lane < count; ++lane) {\n");
-	if (ring->window == WINDOW_VERTEX)
-		text_add(text, "\t\tconst %s cx = origin[lane];\n", precision->real);
+	for (int i = 0; i < CONSTANTS; ++i)
+		if (constants[i].window == ring->window)
+			text_add(text, "\t\tconst %s %s = origin[%slane];\n", precision->real,
+				constants[i].name, constants[i].place
+				? format("%d + ", constants[i].place * precision->lanes) : "");
 	for (int k = 0; k < ring->accumulators; ++k)
 		text_add(text, "\t\t%s acc%d = %s;\n", precision->real, k, lane_sum(k, precision));
 	add_loop(text, ring, program, precision);
@@ -129,7 +145,7 @@ static const char *group_of(const Ring *ring)
 	static const char *const groups[][2] = {
 		{ "moments", "moments" }, { "line", "curves" }, { "quad", "curves" },
 		{ "conic", "curves" }, { "cubic", "curves" }, { "radius", "distance" },
-		{ "closure", "distance" },
+		{ "closure", "distance" }, { "coverage", "coverage" }, { "filter", "filters" },
 	};
 	for (int i = 0; i < LENGTH(groups); ++i)
 		if (is_family(ring, groups[i][0]))

@@ -11,8 +11,8 @@
  *   stored    accumulators stay in the nearest cache and take two vectors per load and store
  *
  * The last vectors may be partial: their loads are masked, or go through buffers that hold 0 behind
- * the last item, and an item of zeros adds exactly 0. Kernels of curves are long, so they have this
- * one loop only; what it costs is small beside their operations. */
+ * the last item, and an item of zeros adds exactly 0. Kernels of curves and windows are long, so they
+ * have this one loop only; what it costs is small beside their operations. */
 #include "gen.h"
 
 enum { FEW_OPERATIONS = 6,   /* on the FMA pipe, up to which loads are the limit (degree 1) */
@@ -30,9 +30,9 @@ typedef struct {
 	Style style;
 } Shape;
 
-static int is_curve(const Ring *ring)
+static int is_long(const Ring *ring)
 {
-	return ring->window >= WINDOW_QUAD;
+	return ring->window >= WINDOW_QUAD || ring->filter;
 }
 
 static const char *margin(int indent)
@@ -190,7 +190,7 @@ static void add_locals(Shape *shape, int carried)
 	text_add(shape->text, "\t\tsize_t i = pass;\n");
 	if (carried)
 		add_carried(shape);
-	if (!is_curve(shape->ring))
+	if (!is_long(shape->ring))
 		add_items(shape, 1);
 	add_items(shape, 0);
 	set_turn(shape, 0, 2);
@@ -217,7 +217,7 @@ static void add_stored_items(Shape *shape, int items)
 static void add_stored(Shape *shape)
 {
 	text_add(shape->text, "\t\tsize_t i = pass;\n");
-	if (!is_curve(shape->ring))
+	if (!is_long(shape->ring))
 		add_stored_items(shape, 2);
 	add_stored_items(shape, 1);
 }
@@ -273,9 +273,12 @@ void emit_vector_body(Text *text, const Ring *ring, const Target *target,
 		&& program->cost.fma >= MANY_OPERATIONS
 		&& ring->accumulators + program->live > vector->registers;
 	text_add(text, "\tfor (size_t pass = 0; pass < step && pass < count; pass += %d) {\n", width);
-	if (ring->window == WINDOW_VERTEX)
-		text_add(text, "\t\tconst %s cx = %s;\n", shape.type,
-			load(&shape, format("origin + pass")));
+	for (int i = 0; i < CONSTANTS; ++i)
+		if (constants[i].window == ring->window)
+			text_add(text, "\t\tconst %s %s = %s;\n", shape.type, constants[i].name,
+				load(&shape, constants[i].place ? format("origin + %d + pass",
+					constants[i].place * precision->lanes)
+					: format("origin + pass")));
 	if (stored)
 		add_stored(&shape);
 	else

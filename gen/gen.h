@@ -102,6 +102,7 @@ Poly poly_scale(Poly a, Rat factor);
 Poly poly_pow(Poly a, int power);
 Poly poly_abs(Poly a);                       /* every coefficient positive */
 Poly poly_substitute(Poly a, const int *vars, const Poly *by, int count);
+Poly poly_integral(Poly a, int var);          /* that is 0 where the variable is 0 */
 int  poly_equal(Poly a, Poly b);
 int  poly_degree(Poly a, int var);
 Rat  poly_content(Poly a);                   /* c > 0 with a / c integer and coprime */
@@ -242,8 +243,9 @@ enum {
 	OPS };
 #undef OP
 
-/* What an item of a kernel reads: the points of an edge, or a vertex between its neighbours. */
-enum { WINDOW_LINE, WINDOW_VERTEX, WINDOW_QUAD, WINDOW_CONIC, WINDOW_CUBIC, WINDOWS };
+/* What an item of a kernel reads: the points of an edge, or a vertex between its neighbours. A cell:
+ * a line edge, while the corners (x2,y2), (x3,y3) of a rectangle stay the same. */
+enum { WINDOW_LINE, WINDOW_VERTEX, WINDOW_QUAD, WINDOW_CONIC, WINDOW_CUBIC, WINDOW_CELL, WINDOWS };
 int  window_points(int window);
 int  window_planes(int window);              /* arrays of coordinates: the weight is one more */
 
@@ -257,7 +259,7 @@ typedef struct {
 
 /* Equal polynomials; a sum over the nodes of a quadrature rule, modulo a prime; or not polynomial:
  * the tests compare with MPFR. */
-enum { PROOF_POLYNOMIAL, PROOF_QUADRATURE, PROOF_NONE };
+enum { PROOF_POLYNOMIAL, PROOF_QUADRATURE, PROOF_PIECES, PROOF_NONE };
 
 typedef struct {
 	Node *node; int count, room;
@@ -396,6 +398,38 @@ Dag *closure_sum(void);
 
 Dag *conic_cap(int degree, int is_float);
 
+/* ---- cells.c: a filter as polynomials between its knots -------------------------------------- */
+
+typedef struct {
+	int  separable, columns, rows;
+	Rat  *x, *y;                         /* knots: one more than columns, rows */
+	Poly *across, *up, *all;             /* see cells.c; of each column, cell, column */
+} Cells;
+
+Cells filter_cells(const Filter *filter);
+Poly  cells_up(const Cells *cells, int column, int row);
+int   cells_nodes(Poly across, Poly up);     /* of the rule that is exact along a line */
+
+/* ---- window.c: an edge and a rectangle, or the support of a filter --------------------------- */
+
+typedef struct { Ref middle, half; } Span;   /* of a coordinate along a segment */
+
+Dag *window_coverage(void);
+Dag *window_filter(const Filter *filter);    /* centred at the origin */
+Ref  cell_value(Dag *dag, Poly a, Ref x, Ref y);   /* NONE for 0 */
+Span cell_span(Dag *dag, Ref start, Ref end);
+/* x and y at +tau and -tau; how many points they are. */
+int  cell_node(Dag *dag, Span x, Span y, Rat tau, Ref point[2][2]);
+
+/* ---- deposit.c: an edge within one cell, and all pixels whose support holds it ---------------- */
+
+enum { DEPOSIT_SIZE = 8 };                   /* pixels per axis at most */
+int  deposit_size(const Filter *filter);     /* pixels per axis, or 0 if knots are not pixels apart */
+Dag *deposit(const Filter *filter);
+int  deposit_nodes(const Filter *filter);    /* of its rule */
+Rat  deposit_unit(const Filter *filter);     /* every output is a multiple of it */
+Rat  in_units(Rat value, Rat unit);          /* the nearest multiple */
+
 /* ---- scheme.c: ways to evaluate, and the choice by cost -------------------------------------- */
 
 /* On the FMA pipe (mul included), adder, divider (square roots too); mul alone. */
@@ -427,10 +461,33 @@ void   prove_dag(const Dag *dag, const Integral *want, int count, const char *pa
 void   prove_program(const Program *program, const Integral *want, int count);
 void   prove_finish(const Program *finish, const Dag *ring);
 
+/* ---- residue.c: exact arithmetic modulo a prime ---------------------------------------------- */
+
+typedef uint64_t Residue;
+#define PRIME ((1ull << 61) - 1)
+typedef struct { Residue residue; Int near; } Number;   /* and roughly how large it is */
+
+Residue residue_add(Residue a, Residue b);
+Residue residue_subtract(Residue a, Residue b);
+Residue residue_multiply(Residue a, Residue b);
+Residue residue_power(Residue a, uint64_t exponent);
+Residue residue_inverse(Residue a);
+Residue residue_of(Rat a);
+Number  number_of(Rat a);
+/* Every value of a program for coordinates x0, y0, x1, ...; accumulators begin at 0. NULL if it is
+ * too close to call what the program selects. */
+Number *residue_run(const Program *program, const Number *coordinate);
+
 /* ---- modular.c: the check of sums over quadrature nodes -------------------------------------- */
 
 /* The moments to degree m, or the one of x^m y^n if the program has no finish. */
 void   prove_quadrature(const Program *program, int m, int n);
+
+/* ---- pieces.c: the check of programs that select --------------------------------------------- */
+
+void   prove_coverage(const Program *program);
+void   prove_window(const Program *program, const Filter *filter);
+void   prove_deposit(const Program *program, const Filter *filter);
 
 /* ---- kernel.c: the list of kernels of a request, built and proven ---------------------------- */
 
@@ -452,9 +509,17 @@ typedef struct {                             /* one family member that runs over
 	Program finish;
 	Bound *bound;                        /* per output, of the portable program */
 	Bound  worst;
+	const Filter *filter;                /* of its family, else NULL */
 } Ring;
 
-typedef struct { Edge *edge; int edges; Ring *ring; int rings; } Kernels;
+/* What adds a piece of an edge to filtered images, in float. */
+typedef struct { const Filter *filter; Program portable, fused; } Deposited;
+
+typedef struct {
+	Edge *edge; int edges;
+	Ring *ring; int rings;
+	Deposited *deposit; int deposits;
+} Kernels;
 
 /* `letters` choose what is dumped into `text`: p polynomials, d dag, f fused, s schedule. */
 Edge build_edge(const Integrand *what);      /* a line edge */
@@ -496,9 +561,14 @@ typedef struct { const char *real, *suffix, *unit; int is_float, lanes; unsigned
 extern const Precision precisions[];
 extern const int precision_count;
 
+/* Numbers that stay the same for all items of a lane: name = origin[place * L + lane]. */
+typedef struct { const char *name; int place, window; } Constant;
+enum { CONSTANTS = 5 };
+extern const Constant constants[CONSTANTS];
+
 /* What an item of a ring reads: name = array[i + ahead * reach], for programs with this window. */
 typedef struct { const char *name, *array; int ahead, window; } Load;
-enum { LOADS = 28 };
+enum { LOADS = 32 };
 extern const Load loads[LOADS];
 
 typedef struct {                             /* how a program is written */

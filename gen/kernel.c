@@ -9,6 +9,8 @@
  *                                         those of the cap beyond its chord
  *     radius                              power m of the distance
  *     closure                             x0 y0 - x1 y1
+ *     coverage                            of a rectangle
+ *     filter                              one filter, centred at the origin
  *     monomial, polynomial                one integrand over rings */
 #include "gen.h"
 
@@ -120,6 +122,14 @@ static void worsen(Bound *worst, Bound bound)
 	worst->repeat = bound.repeat > worst->repeat ? bound.repeat : worst->repeat;
 }
 
+static void prove_pieces(const Ring *ring, const Program *program)
+{
+	if (ring->filter)
+		prove_window(program, ring->filter);
+	else
+		prove_coverage(program);
+}
+
 /* One precision: portable and fused program, each proven in the way its scheme allows. */
 static void build_programs(Ring *ring, int is_float, const Dag *dag, const Integral *want,
 	const Dump *dump)
@@ -139,6 +149,10 @@ static void build_programs(Ring *ring, int is_float, const Dag *dag, const Integ
 	}
 	ring->portable[is_float] = dumped_schedule(dump, ring->name, "portable", dag);
 	ring->fused[is_float] = dumped_schedule(dump, ring->name, "fma", fused);
+	if (dag->proof == PROOF_PIECES) {
+		prove_pieces(ring, &ring->portable[is_float]);
+		prove_pieces(ring, &ring->fused[is_float]);
+	}
 	if (dag->proof == PROOF_QUADRATURE) {
 		prove_quadrature(&ring->portable[is_float], ring->m, 0);
 		prove_quadrature(&ring->fused[is_float], ring->m, 0);
@@ -307,6 +321,46 @@ static void build_closure(Kernels *all, const Dump *dump)
 	build_other_ring(next_ring(all, "closure", "closure", 0, 0, 1), dag, dag, &want, dump);
 }
 
+/* ---- windows ---- */
+
+static void build_window(Ring *ring, Dag *dag, const Dump *dump)
+{
+	if (!dag_reverses(dag) || !dag_reverses(fuse(dag)))
+		bug("swapping the ends of the edge does not negate %s bit for bit", ring->name);
+	build_other_ring(ring, dag, dag, NULL, dump);
+}
+
+static void build_deposit(Deposited *deposited, const Filter *filter, const Dump *dump)
+{
+	const char *name = format("deposit_%s", filter->name);
+	Dag *dag = deposit(filter), *fused = fuse(dag);
+	dump_dag(dump, 'd', name, dag);
+	dump_dag(dump, 'f', name, fused);
+	if (!dag_reverses(dag) || !dag_reverses(fused))
+		bug("swapping the ends of the edge does not negate %s bit for bit", name);
+	deposited->filter = filter;
+	deposited->portable = dumped_schedule(dump, name, "portable", dag);
+	deposited->fused = dumped_schedule(dump, name, "fma", fused);
+	prove_deposit(&deposited->portable, filter);
+	prove_deposit(&deposited->fused, filter);
+}
+
+static void build_windows(Kernels *all, const Request *request, const Dump *dump,
+	void (*progress)(int done, int of), int rings)
+{
+	if (request->families & FAMILY_COVERAGE)
+		build_window(next_ring(all, "coverage", "coverage", 0, 0, 1), window_coverage(), dump);
+	for (int i = 0; i < request->filters; ++i) {
+		const Filter *filter = &request->filter[i];
+		Ring *ring = next_ring(all, filter->name, "filter", filter->degree, 0, 1);
+		progress(all->rings, rings);
+		ring->filter = filter;
+		build_window(ring, window_filter(filter), dump);
+		if (deposit_size(filter))
+			build_deposit(&all->deposit[all->deposits++], filter, dump);
+	}
+}
+
 static const struct { unsigned edge; int window; } curve_kinds[] = {
 	{ EDGE_QUAD, WINDOW_QUAD }, { EDGE_CONIC, WINDOW_CONIC }, { EDGE_CUBIC, WINDOW_CUBIC },
 };
@@ -352,12 +406,14 @@ Kernels build_kernels(const Request *request, void (*progress)(int done, int of)
 	const int lines = request->edges & EDGE_LINE ? request->monomials : 0;
 	const int integrands = lines + request->polynomials;
 	const int edges = 4 * request->monomials + request->polynomials + 3;
-	const int rings = integrands + 5 * (request->moments + 1) + 8;
+	const int rings = integrands + 5 * (request->moments + 1) + request->filters + 9;
 	Kernels all = {
-		allocate((size_t)edges * sizeof(Edge)), 0, allocate((size_t)rings * sizeof(Ring)), 0
+		allocate((size_t)edges * sizeof(Edge)), 0, allocate((size_t)rings * sizeof(Ring)), 0,
+		allocate((size_t)(request->filters + 1) * sizeof(Deposited)), 0
 	};
 	build_families(&all, request, &dump, progress, rings);
 	build_edge_kinds(&all, request, &dump, progress, rings);
+	build_windows(&all, request, &dump, progress, rings);
 	build_curve_edges(&all, request, &dump);
 	for (int i = 0; i < integrands; ++i) {
 		progress(all.rings, rings);

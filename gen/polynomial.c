@@ -229,6 +229,17 @@ Poly poly_substitute(Poly a, const int *vars, const Poly *by, int count)
 	return result;
 }
 
+Poly poly_integral(Poly a, int var)
+{
+	Poly result = { a.count, allocate((size_t)(a.count + 1) * sizeof(Term)) };
+	for (int i = 0; i < a.count; ++i) {
+		const int power = mono_power(a.term[i].mono, var) + 1;
+		result.term[i] = (Term){ a.term[i].mono + mono_var(var, 1),
+			rat_div(a.term[i].coef, rat(power, 1)) };
+	}
+	return result;
+}
+
 int poly_equal(Poly a, Poly b)
 {
 	if (a.count != b.count)
