@@ -79,6 +79,15 @@ const int precision_count = LENGTH(precisions);
 
 enum { MAX_FILES = 4096, WIDTH = 100, TAB = 8 };
 
+char *emit_upper(const char *text)
+{
+	char *copy = copy_string(text, strlen(text));
+	for (char *p = copy; *p; ++p)
+		if (*p >= 'a' && *p <= 'z')
+			*p = (char)(*p - 'a' + 'A');
+	return copy;
+}
+
 char *emit_divisions(const Program *program)
 {
 	return program->cost.divide ? format(", %d div or sqrt", program->cost.divide)

@@ -7,18 +7,9 @@
 
 #include <string.h>
 
-static char *upper(const char *text)
-{
-	char *copy = copy_string(text, strlen(text));
-	for (char *p = copy; *p; ++p)
-		if (*p >= 'a' && *p <= 'z')
-			*p = (char)(*p - 'a' + 'A');
-	return copy;
-}
-
 static char *ring_id(const Ring *ring)
 {
-	return format("EW_RING_%s", upper(ring->name));
+	return format("EW_RING_%s", emit_upper(ring->name));
 }
 
 static void add_lines(Text *text, const Request *request, const Kernels *kernels)
@@ -26,7 +17,7 @@ static void add_lines(Text *text, const Request *request, const Kernels *kernels
 	for (int p = 0; p < precision_count; ++p) {
 		int wanted = (request->precisions & precisions[p].bit) != 0;
 		text_add(text, "\n/* X(m, n, symbol, k): single edges; |result - exact| <= gamma_k "
-			"W */\n#define EW_LINES_%s(X)", upper(precisions[p].real));
+			"W */\n#define EW_LINES_%s(X)", emit_upper(precisions[p].real));
 		for (int i = 0; i < kernels->edges && wanted; ++i) {
 			const Edge *edge = &kernels->edge[i];
 			if (edge->window == WINDOW_LINE && edge->what && edge->what->m >= 0)
@@ -104,7 +95,7 @@ static void add_kinds(Text *text, const Request *request, const Kernels *kernels
 	for (int i = 0; i < LENGTH(kinds); ++i) {
 		if (!(request->edges & 1u << i))
 			continue;
-		text_add(text, "#define EW_IDS_%s", upper(kinds[i]));
+		text_add(text, "#define EW_IDS_%s", emit_upper(kinds[i]));
 		for (int degree = 0; degree <= request->curves; ++degree) {
 			const Ring *best = NULL;
 			for (int k = kernels->rings - 1; k >= 0; --k) {
@@ -138,7 +129,7 @@ static void add_bounds(Text *text, const Request *request, const Kernels *kernel
 static void add_precision(Text *text, const Request *request, const Kernels *kernels,
 	const Precision *precision)
 {
-	const char *real = upper(precision->real);
+	const char *real = emit_upper(precision->real);
 	text_add(text, "\n/* X(function, id, edge, k): a polynomial over a ring, "
 		"and over one edge with its k; %s */\n"
 		"#define EW_POLYNOMIALS_%s(X)", precision->real, real);
@@ -155,7 +146,7 @@ static void add_precision(Text *text, const Request *request, const Kernels *ker
 			continue;
 		text_add(text, "\n/* X(id, kernel, f, a): %s, %s; per item f on the FMA pipe, "
 			"a additions */\n#define EW_RINGS_%s_%s(X)", targets[t].name,
-			precision->real, upper(targets[t].name), real);
+			precision->real, emit_upper(targets[t].name), real);
 		for (int i = 0; i < kernels->rings; ++i) {
 			const Ring *ring = &kernels->ring[i];
 			Count cost = targets[t].fused ? ring->fused[precision->is_float].cost
@@ -184,13 +175,56 @@ static void add_items(Text *text, const Kernels *kernels)
 	}
 }
 
+/* The public functions of each filter. */
+static void add_filter_list(Text *text, const Request *request)
+{
+	for (int p = 0; p < precision_count; ++p) {
+		text_add(text, "\n/* X(function, edge, id): a filter over a ring, and over one edge */\n"
+			"#define EW_FILTERS_%s(X)", emit_upper(precisions[p].real));
+		for (int i = 0; i < request->filters; ++i) {
+			const char *name = request->filter[i].name, *suffix = precisions[p].suffix;
+			text_add(text, " \\\n\tX(ew_%s%s, ew_line_%s%s, EW_RING_%s)", name, suffix, name,
+				suffix, emit_upper(name));
+		}
+		text_add(text, "\n");
+	}
+}
+
+static void add_deposits(Text *text, const Request *request, const Kernels *kernels)
+{
+	if (!request->filters)
+		return;
+	text_add(text, "\n/* Piece i of an edge within a cell of the pixel grid moved by the corner of a "
+		"filter, (x[i], y[i]) ->\n * (x[reach + i], y[reach + i]) relative to the cell, adds "
+		"out[(r N + m) reach + i] to row r, column m of a\n * difference image, r <= N, m < N; see "
+		"edgewise_raster.c. Pieces up to a multiple of 16 are computed. */\n"
+		"typedef void ew_deposit(const float *x, const float *y, size_t reach, size_t count, "
+		"float *out);\n"
+		"struct ew_filter {\n\tconst char *name;\n\tint size;        /* N, pixels per axis; 0: "
+		"knots are not pixels apart */\n\tdouble first_x, first_y, last_x, last_y;   /* support, "
+		"from the centre */\n\tint ring;        /* its kernels over rings */\n"
+		"\tew_deposit *deposit[%d];     /* by target, lowest bit first; NULL: not built */\n};\n",
+		TARGETS);
+	for (int t = 0; t < target_count && kernels->deposits; ++t) {
+		if (!(request->targets & targets[t].bit))
+			continue;
+		text_add(text, "%s%s%s", targets[t].guard ? "#if " : "",
+			targets[t].guard ? targets[t].guard : "", targets[t].guard ? "\n" : "");
+		text_add(text, "ew_deposit");
+		for (int i = 0; i < kernels->deposits; ++i)
+			text_add(text, "%s ew_deposit_%s_%s", i ? i % 2 ? "," : ",\n\t" : "",
+				kernels->deposit[i].filter->name, targets[t].name);
+		text_add(text, targets[t].guard ? ";\n#endif\n" : ";\n");
+	}
+}
+
 /* The targets that the compiler builds, and what finishes the moments of rings side by side. */
 static void add_targets(Text *text, const Request *request, const Kernels *kernels)
 {
 	Text all = { 0 };
 	for (int t = 0; t < target_count; ++t) {
 		const Target *target = &targets[t];
-		const char *name = upper(target->name);
+		const char *name = emit_upper(target->name);
 		if (!(request->targets & target->bit))
 			continue;
 		text_add(text, "\n#if %s\n#define EW_TARGET_%s(X) X(%s, %s, %d)\n#else\n"
@@ -217,7 +251,7 @@ static void add_targets(Text *text, const Request *request, const Kernels *kerne
 /* 2^ceil(t/2) + 1: splits t bits in two halves. */
 static const char *const SPLITTER[] = { "134217729.0", "4097.0f" };
 
-static void add_types(Text *text, const Request *request)
+static void add_types(Text *text, const Request *request, const Kernels *kernels)
 {
 	text_add(text, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n"
 		"/* Items 0 .. count-1; item i reads vertices i, i + reach, ... (the window), and "
@@ -274,16 +308,17 @@ static void add_types(Text *text, const Request *request)
 				text_add(text, "#if %s\n", target->guard);
 			text_add(text, "#define EW_DECLARE(id, kernel, f, a) "
 				"ew_ring_run%s kernel;\nEW_RINGS_%s_%s(EW_DECLARE)\n"
-				"#undef EW_DECLARE\n%s", precisions[p].suffix, upper(target->name),
-				upper(precisions[p].real), target->guard ? "#endif\n" : "");
+				"#undef EW_DECLARE\n%s", precisions[p].suffix, emit_upper(target->name),
+				emit_upper(precisions[p].real), target->guard ? "#endif\n" : "");
 		}
 	for (int t = 0; t < target_count; ++t)
 		if (request->targets & targets[t].bit && targets[t].vector) {
 			text_add(text, "#if %s\n#define EW_DECLARE(id, finish) "
 				"ew_ring_finish finish;\nEW_FINISHES_%s(EW_DECLARE)\n"
 				"#undef EW_DECLARE\n#endif\n", targets[t].guard,
-				upper(targets[t].name));
+				emit_upper(targets[t].name));
 		}
+	add_deposits(text, request, kernels);
 	text_add(text, "\n#ifdef __cplusplus\n}\n#endif\n");
 }
 
@@ -301,11 +336,12 @@ void emit_list(Files *files, const Request *request, const Kernels *kernels)
 	for (int p = 0; p < precision_count; ++p)
 		if (request->precisions & precisions[p].bit)
 			add_precision(text, request, kernels, &precisions[p]);
+	add_filter_list(text, request);
 	add_bounds(text, request, kernels);
 	add_kinds(text, request, kernels);
 	add_items(text, kernels);
 	add_targets(text, request, kernels);
-	add_types(text, request);
+	add_types(text, request, kernels);
 	text_add(text, "\n#endif\n");
 }
 

@@ -585,6 +585,7 @@ void emit_banner(Text *text, const char *name, const char *purpose, const Reques
 void emit_wrapped(Text *text, const char *start, const char *margin, const char *words);
 /* Broken at operators if it is too wide. */
 void emit_statement(Text *text, int indent, const char *statement);
+char *emit_upper(const char *text);
 char *emit_divisions(const Program *program);   /* ", 3 div or sqrt", or nothing */
 char *emit_place(const Load *load, int turn);  /* index of what item i + turn * step reads */
 char *emit_spelling(const char *pattern, const Style *style, char *const *argument);
@@ -609,6 +610,8 @@ int  emit_has_item(const Ring *ring);          /* does that never leave the regi
 void emit_vector_item(Text *text, const Ring *ring, const Target *target,
 	const Precision *precision);
 void emit_rings(Files *files, const Request *request, const Kernels *kernels);
+/* Of filters: kernels per target, and edgewise_filters.c. */
+void emit_deposits(Files *files, const Request *request, const Kernels *kernels);
 /* The beginning of edgewise_kernels.h. */
 void emit_environment(Text *text, const Request *request);
 /* edgewise_kernels.h, edgewise.h, and the manifest (JSON, all but the files). */

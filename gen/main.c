@@ -352,6 +352,7 @@ static int emit(const Options *o)
 	emit_edges(&files, request, &kernels);
 	if (spec_has_rings(request))
 		emit_rings(&files, request, &kernels);
+	emit_deposits(&files, request, &kernels);
 	if (o->runtime && spec_has_rings(request))
 		bundle_runtime(&files);
 	bundle_rename(&files, request->prefix);

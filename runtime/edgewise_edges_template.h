@@ -333,17 +333,26 @@ int EW_NAME(path_moments)(int degree, const unsigned char *verbs, size_t verb_co
 }
 #endif
 
-#if defined(EW_HAS_DISTANCE) || defined(EW_HAS_CLOSURE)
+#if defined(EW_HAS_DISTANCE) || defined(EW_HAS_CLOSURE) || defined(EW_HAS_COVERAGE) \
+	|| defined(EW_HAS_FILTERS)
 /* A single edge through a kernel of line edges. */
-static EW_REAL EW_LOCAL(edge_value)(int id, EW_REAL x0, EW_REAL y0, EW_REAL x1, EW_REAL y1)
+static EW_REAL EW_LOCAL(edge_about)(int id, EW_REAL x0, EW_REAL y0, EW_REAL x1, EW_REAL y1,
+	const EW_REAL *origin)
 {
 	const EW_REAL x[] = { x0, x1 }, y[] = { y0, y1 };
 	EW_REAL sum[EW_WIDTH] = { 0 };
 	double total, value;
-	EW_LOCAL(kernel)(id, ew_ring_scalar(ew_cpu_target()))(x, y, x, 1, 1, 1, sum);
+	EW_LOCAL(kernel)(id, ew_ring_scalar(ew_cpu_target()))(x, y, origin, 1, 1, 1, sum);
 	total = (double)sum[0];
 	ew_ring_shapes[id].finish(&total, &value, 1);
 	return (EW_REAL)value;
+}
+#endif
+
+#if defined(EW_HAS_DISTANCE) || defined(EW_HAS_CLOSURE)
+static EW_REAL EW_LOCAL(edge_value)(int id, EW_REAL x0, EW_REAL y0, EW_REAL x1, EW_REAL y1)
+{
+	return EW_LOCAL(edge_about)(id, x0, y0, x1, y1, &x0);
 }
 #endif
 

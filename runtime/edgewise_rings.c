@@ -139,6 +139,7 @@ static ew_ring_finish *ew_ring_finish_columns(unsigned used, int degree, size_t 
 #include "edgewise_precision.h"
 #include "edgewise_rings_template.h"
 #include "edgewise_edges_template.h"
+#include "edgewise_windows_template.h"
 #ifdef EW_HAS_CLOSURE
 #include "edgewise_closure_template.h"
 #endif
@@ -154,6 +155,7 @@ static ew_ring_finish *ew_ring_finish_columns(unsigned used, int degree, size_t 
 #include "edgewise_precision.h"
 #include "edgewise_rings_template.h"
 #include "edgewise_edges_template.h"
+#include "edgewise_windows_template.h"
 #ifdef EW_HAS_CLOSURE
 #include "edgewise_closure_template.h"
 #endif

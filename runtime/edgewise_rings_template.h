@@ -19,6 +19,7 @@ typedef struct {
 	const EW_LOCAL(columns) *by;
 	int moved;                     /* vertex = (((x, y) - (cx, cy)) - (dx, dy)) scale */
 	EW_REAL cx, cy, dx, dy, scale;
+	const EW_REAL *constants;      /* of a rectangle; else NULL */
 } EW_LOCAL(vertices);
 
 static EW_RUN *EW_LOCAL(kernel)(int id, unsigned used)
@@ -37,7 +38,8 @@ static EW_RUN *EW_LOCAL(kernel)(int id, unsigned used)
 #undef EW_CASE
 }
 
-#if defined(EW_HAS_INTEGRANDS) || defined(EW_HAS_DISTANCE)
+#if defined(EW_HAS_INTEGRANDS) || defined(EW_HAS_DISTANCE) || defined(EW_HAS_COVERAGE) \
+	|| defined(EW_HAS_FILTERS)
 static EW_REAL EW_LOCAL(vertex_x)(const EW_LOCAL(vertices) *v, size_t i)
 {
 	EW_REAL x = v->x[i * v->stride];
@@ -132,9 +134,10 @@ static void EW_LOCAL(run_lanes)(int id, const EW_LOCAL(vertices) *v, const EW_RE
 /* Sums of all accumulators over the items of every lane; a short ring has one lane only. */
 static void EW_LOCAL(run_items)(int id, const EW_LOCAL(vertices) *v, double *wide)
 {
-	EW_ALIGNED EW_REAL origin[EW_WIDTH];
+	EW_ALIGNED EW_REAL first[EW_WIDTH];
+	const EW_REAL *origin = v->constants ? v->constants : first;
 	for (int l = 0; l < EW_WIDTH; ++l)
-		origin[l] = EW_LOCAL(vertex_x)(v, 0);
+		first[l] = EW_LOCAL(vertex_x)(v, 0);
 	if (v->n < EW_SHORT)
 		EW_LOCAL(run_short)(id, v, origin, wide);
 	else
@@ -190,7 +193,7 @@ static EW_LOCAL(vertices) EW_LOCAL(plain_on)(unsigned target, const EW_REAL *x, 
 	size_t stride, size_t n)
 {
 	EW_LOCAL(vertices) v = { x, y, stride, n, target, EW_LOCAL(by_columns)(target), 0, 0, 0, 0,
-		0, 1 };
+		0, 1, NULL };
 	v.n -= n == EW_SHORT && EW_LOCAL(is_closed)(x, y, stride, n);
 	return v;
 }
