@@ -258,6 +258,7 @@ Poly dag_expand_node(const Node *node, const Poly *done)
 	switch (node->op) {
 	case OP_INPUT: return poly_mono(rat(1, 1), node->input);
 	case OP_CONST: return poly_const(node->value);
+	case OP_LEAST: return poly_zero();
 	case OP_ADD:   return poly_add(a, b);
 	case OP_SUB:   return poly_sub(a, b);
 	case OP_MUL:   return poly_mul(a, b);

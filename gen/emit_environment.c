@@ -41,6 +41,8 @@ static void add_scalar(Text *text, const Format *f)
 
 /* Before AVX-512DQ 64-bit integers have no conversion: 2^52 + k has k in its last bits. */
 static const char *const X86 =
+	"#define EW_LEAST_pd DBL_MIN\n"
+	"#define EW_LEAST_ps FLT_MIN\n"
 	"#define EW_ABS_mm256_pd(a) _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)\n"
 	"#define EW_ABS_mm256_ps(a) _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a)\n"
 	"#define EW_ABS_mm512_pd(a) _mm512_abs_pd(a)\n"
@@ -98,6 +100,8 @@ static const char *const X86 =
 	"\t_mm512_maskz_slli_epi32(0xffff, _mm512_maskz_srli_epi32(0xffff, EW_BITS_mm512_ps(a), 23), 23)))\n";
 
 static const char *const NEON =
+	"#define EW_LEAST_f64 DBL_MIN\n"
+	"#define EW_LEAST_f32 FLT_MIN\n"
 	"#define EW_MAX_f64(a, b) vbslq_f64(vcgtq_f64(a, b), a, b)\n"
 	"#define EW_MIN_f64(a, b) vbslq_f64(vcltq_f64(a, b), a, b)\n"
 	"#define EW_MAX_f32(a, b) vbslq_f32(vcgtq_f32(a, b), a, b)\n"
@@ -172,6 +176,7 @@ void emit_environment(Text *text, const Request *request)
 {
 	text_add(text, "#include <float.h>\n#include <stdint.h>\n#include <string.h>\n\n");
 	add_compiler(text, request);
+	text_add(text, "\n#define EW_LEAST DBL_MIN\n#define EW_LEASTf FLT_MIN\n");
 	text_add(text, "\n/* Operations that are more than one instruction; see ew_ring_choose, "
 		"ew_ring_exponent and ew_ring_fraction. */\n%s%s", X86, NEON);
 	text_add(text, "\n/* a > b ? a : b; a < b ? a : b; a > 0 ? b : c; for a >= 1 the integer k with a 2^-k in "

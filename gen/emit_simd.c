@@ -8,7 +8,8 @@
  *   carried   few operations and V = L: loads are the limit, so a vector is loaded once and
  *             shifted into place for the ends of its edges
  *   locals    accumulators are local variables
- *   stored    accumulators stay in the nearest cache and take two vectors per load and store
+ *   stored    accumulators stay in the nearest cache and take two vectors per load and store; for
+ *             the long chain of a cell too, so that two are on the way
  *
  * The last vectors may be partial: their loads are masked, or go through buffers that hold 0 behind
  * the last item, and an item of zeros adds exactly 0. Kernels of curves and windows are long, so they
@@ -32,7 +33,7 @@ typedef struct {
 
 static int is_long(const Ring *ring)
 {
-	return ring->window >= WINDOW_QUAD || ring->filter;
+	return (ring->window >= WINDOW_QUAD && ring->window != WINDOW_CELL) || ring->filter;
 }
 
 static const char *margin(int indent)
@@ -270,8 +271,9 @@ void emit_vector_body(Text *text, const Ring *ring, const Target *target,
 	int carried = vector->shift[0] && width == precision->lanes
 		&& program->cost.fma <= FEW_OPERATIONS;
 	int stored = vector->registers >= MANY_REGISTERS && ring->turns == 1
-		&& program->cost.fma >= MANY_OPERATIONS
-		&& ring->accumulators + program->live > vector->registers;
+		&& ((program->cost.fma >= MANY_OPERATIONS
+		&& ring->accumulators + program->live > vector->registers)
+		|| ring->window == WINDOW_CELL);
 	text_add(text, "\tfor (size_t pass = 0; pass < step && pass < count; pass += %d) {\n", width);
 	for (int i = 0; i < CONSTANTS; ++i)
 		if (constants[i].window == ring->window)

@@ -171,6 +171,13 @@ static Residue window_value(const Filter *filter, const Cells *cells, Point p, P
 	return residue_subtract(0, sum);
 }
 
+/* Of one edge: what joined the accumulator, times the factor of the finish. */
+static Residue result(const Dag *dag, const Number *value)
+{
+	return residue_multiply(residue_of(dag->finish[0].term[0].coef),
+		value[dag->out[0]].residue);
+}
+
 static void set_inputs(Number *input, Point p, Point q)
 {
 	input[0] = number_of(p.x);
@@ -198,7 +205,7 @@ void prove_window(const Program *program, const Filter *filter)
 			continue;
 		set_inputs(input, p, q);
 		const Number *value = residue_run(program, input);
-		if (value && value[program->dag->out[0]].residue
+		if (value && result(program->dag, value)
 		    != window_value(filter, &cells, p, q))
 			bug("the proof failed: filter %s over the edge (%s, %s) (%s, %s)", filter->name,
 				rat_text(p.x), rat_text(p.y), rat_text(q.x), rat_text(q.y));
@@ -234,7 +241,7 @@ void prove_coverage(const Program *program)
 		set_inputs(input, p, q);
 		set_inputs(input + 4, low, high);
 		const Number *value = residue_run(program, input);
-		if (value && value[program->dag->out[0]].residue
+		if (value && result(program->dag, value)
 		    != window_value(&one, &cells, p, q))
 			bug("the proof failed: coverage by the edge (%s, %s) (%s, %s)",
 				rat_text(p.x), rat_text(p.y), rat_text(q.x), rat_text(q.y));

@@ -99,12 +99,13 @@ static Number quotient(Number a, Number b)
 static Number operation(const Node *node, const Number *value, int *close)
 {
 	const Number zero = { 0, 0 };
-	Number a = value[node->arg[0]], b = value[node->arg[1]];
+	Number a = value[node->arg[0]], b = node->arg[1] == NONE ? zero : value[node->arg[1]];
 	Number c = node->arg[2] == NONE ? zero : value[node->arg[2]];
 	switch (node->op) {
 	case OP_ADD: return sum(a, b);
 	case OP_SUB: return sum(a, negative(b));
 	case OP_ROUND: return a;
+	case OP_ABS: return compare(a, zero, close) < 0 ? negative(a) : a;
 	case OP_MUL: return product(a, b);
 	case OP_DIV: return quotient(a, b);
 	case OP_FMA: return sum(product(a, b), c);

@@ -12,12 +12,16 @@
  *
  *     yl = ay + (xl - ax)/(bx - ax) dy,     yr = by - (bx - xr)/(bx - ax) dy
  *
- * The ratios are at most 1 whatever happens on the way (0/0 included: MIN gives its second operand
- * for NaN), so nothing overflows, and what is wrong meets a width that is exactly 0.
+ * Where an edge is beside the column or vertical they may be anything, infinite or NaN too: what is
+ * made of them is clamped (MIN and MAX give their second operand for NaN) and meets a width that is
+ * exactly 0.
  *
- * A rectangle of height H: the mean of the clamped heights l = clamp(lo), h = clamp(hi), m = (l+h)/2,
- * where t of d = hi - lo stick out above and r below, is m + (H - m) t/d - m r/d; t and r are 0 for
- * an edge that stays inside, and for d = 0.
+ * A rectangle of height H: the mean of the clamped heights l and r, m = (l + r)/2, where t of d, the
+ * difference of the heights, stick out above and b below, is m + (H - m) t/d - m b/d. t and b are 0
+ * for an edge that stays inside; so the least number added to d does no harm: where t is not 0, H - m
+ * is at most d. They are sums of exact differences y - min(y, H) and p - max(p, 0), whose rounding is
+ * not small only where it meets H - m = 0 or m = 0. Minima, maxima and products share a port, so
+ * choices and sums stand in for them where they can.
  *
  * A filter: each column is cut where the edge crosses the knots of the rows. Between two of them F
  * is one polynomial, and the Gauss-Legendre rule that is exact for its degree along a line gives the
@@ -51,93 +55,96 @@ static Ordered ordered(Dag *dag)
 	Ref x1 = dag_var(dag, VAR_X1), y1 = dag_var(dag, VAR_Y1);
 	Ordered e = { .run = dag_name(dag, dag_sub(dag, x1, x0), "run") };
 	e.one = dag_const(dag, rat(1, 1));
-	e.ax = dag_name(dag, minimum(dag, x0, x1), "ax");
-	e.bx = dag_name(dag, maximum(dag, x0, x1), "bx");
+	e.ax = dag_name(dag, dag_choose(dag, e.run, x0, x1), "ax");
+	e.bx = dag_name(dag, dag_choose(dag, e.run, x1, x0), "bx");
 	e.ay = dag_name(dag, dag_choose(dag, e.run, y0, y1), "ay");
 	e.by = dag_name(dag, dag_choose(dag, e.run, y1, y0), "by");
 	e.rise = dag_name(dag, dag_sub(dag, e.by, e.ay), "rise");
-	Ref length = dag_sub(dag, e.bx, e.ax);
+	Ref length = dag_unary(dag, OP_ABS, e.run);
 	e.inverse = dag_name(dag, dag_div(dag, e.one, length), "inverse");
 	return e;
 }
 
-/* Part of the way, at most 1. */
-static Ref ratio(Dag *dag, const Ordered *e, Ref from, Ref to)
-{
-	Ref part = dag_mul(dag, dag_sub(dag, to, from), e->inverse);
-	return minimum(dag, part, e->one);
-}
-
-/* Heights where the edge enters and leaves a column, above a line: lower and upper one. */
-typedef struct { Ref left, right, low, high; } Heights;
+/* Heights where the edge enters and leaves a column, above a line. */
+typedef struct { Ref left, right; } Heights;
 
 static Heights heights(Dag *dag, const Ordered *e, Ref xl, Ref xr, Ref base)
 {
 	Ref ay = base == NONE ? e->ay : dag_sub(dag, e->ay, base);
 	Ref by = base == NONE ? e->by : dag_sub(dag, e->by, base);
-	Ref ahead = ratio(dag, e, e->ax, xl), behind = ratio(dag, e, xr, e->bx);
+	Ref ahead = dag_mul(dag, dag_sub(dag, xl, e->ax), e->inverse);
+	Ref behind = dag_mul(dag, dag_sub(dag, e->bx, xr), e->inverse);
 	Heights y;
 	y.left = dag_add(dag, ay, dag_mul(dag, ahead, e->rise));
 	y.right = dag_sub(dag, by, dag_mul(dag, behind, e->rise));
-	y.low = minimum(dag, y.left, y.right);
-	y.high = maximum(dag, y.left, y.right);
 	return y;
 }
 
-static Dag *new_window(int window, const char *scheme)
+static Dag *new_window(int window, const char *scheme, Rat factor)
 {
 	Dag *dag = dag_new(scheme);
 	dag->window = window;
 	dag->proof = PROOF_PIECES;
 	finish_room(dag, 0);
-	finish_next(dag, 0, 0, rat(1, 1));
+	finish_next(dag, 0, 0, factor);
 	return dag;
 }
 
-/* width mean, or NaN where a coordinate is NaN or infinite, which clamps swallow. */
+/* width mean, or NaN where a coordinate is NaN or infinite, which clamps swallow: a - a is not 0. */
 static void finish_window(Dag *dag, const Ordered *e, Ref width, Ref mean)
 {
-	Ref zero = dag_const(dag, rat(0, 1));
-	Ref checked = dag_add(dag, mean, dag_mul(dag, e->rise, zero));
-	Ref value = width == NONE ? checked : dag_mul(dag, width, checked);
-	dag_accumulate(dag, dag_add(dag, value, dag_mul(dag, e->run, zero)));
+	Ref rise = dag_sub(dag, e->rise, e->rise), run = dag_sub(dag, e->run, e->run);
+	Ref value = dag_mul(dag, width, dag_add(dag, mean, rise));
+	dag_accumulate(dag, dag_add(dag, value, run));
 }
 
 /* ---- coverage ---- */
 
-/* part / d, 0 if part is 0. */
-static Ref share(Dag *dag, const Ordered *e, Ref part, Ref inverse)
+/* A height that is not above H, not below 0 either, and how far it sticks out. */
+typedef struct { Ref clamped, above, below; } Clamped;
+
+static Clamped clamped(Dag *dag, Ref y, Ref height)
 {
-	Ref most = minimum(dag, dag_mul(dag, part, inverse), e->one);
-	return dag_choose(dag, part, most, dag_const(dag, rat(0, 1)));
+	Clamped c;
+	Ref low = minimum(dag, y, height);
+	c.clamped = maximum(dag, low, dag_const(dag, rat(0, 1)));
+	c.above = dag_sub(dag, y, low);
+	c.below = dag_sub(dag, low, c.clamped);
+	return c;
 }
 
+static Ref distance_of(Dag *dag, Ref a, Ref b, const char *name)
+{
+	return dag_name(dag, dag_unary(dag, OP_ABS, dag_sub(dag, b, a)), name);
+}
+
+/* Twice the mean. */
 static Ref mean_height(Dag *dag, const Ordered *e, Heights y, Ref height)
 {
-	Ref zero = dag_const(dag, rat(0, 1));
-	Ref l = clamp(dag, y.low, zero, height), h = clamp(dag, y.high, zero, height);
-	Ref m = dag_name(dag, dag_scale(dag, rat(1, 2), dag_add(dag, l, h)), "middle");
-	Ref d = dag_sub(dag, y.high, y.low);
-	Ref inverse = dag_div(dag, e->one, d);
-	Ref top_high = maximum(dag, y.high, height), top_low = maximum(dag, y.low, height);
-	Ref above = dag_name(dag, dag_sub(dag, top_high, top_low), "above");
-	Ref bottom_high = minimum(dag, y.high, zero), bottom_low = minimum(dag, y.low, zero);
-	Ref below = dag_name(dag, dag_sub(dag, bottom_high, bottom_low), "below");
-	Ref more = share(dag, e, above, inverse), less = share(dag, e, below, inverse);
-	Ref raised = dag_mul(dag, dag_sub(dag, height, m), more);
-	Ref lowered = dag_mul(dag, m, less);
-	return dag_name(dag, dag_sub(dag, dag_add(dag, m, raised), lowered), "mean");
+	Clamped left = clamped(dag, y.left, height), right = clamped(dag, y.right, height);
+	Ref least = dag_node(dag, OP_LEAST, NONE, NONE, NONE);
+	Ref d = distance_of(dag, y.left, y.right, "d");
+	Ref inverse = dag_div(dag, e->one, dag_add(dag, d, least));
+	Ref above = distance_of(dag, left.above, right.above, "above");
+	Ref below = distance_of(dag, left.below, right.below, "below");
+	Ref both = dag_name(dag, dag_add(dag, left.clamped, right.clamped), "both");
+	Ref whole = dag_add(dag, height, height);
+	Ref more = dag_mul(dag, above, inverse), less = dag_mul(dag, below, inverse);
+	Ref raised = dag_mul(dag, dag_sub(dag, whole, both), more);
+	Ref lowered = dag_mul(dag, both, less);
+	Ref mean = dag_sub(dag, dag_add(dag, both, raised), lowered);
+	return dag_name(dag, clamp(dag, mean, dag_const(dag, rat(0, 1)), whole), "mean");
 }
 
 Dag *window_coverage(void)
 {
-	Dag *dag = new_window(WINDOW_CELL, "clamped");
+	Dag *dag = new_window(WINDOW_CELL, "clamped", rat(1, 2));
 	const Ordered e = ordered(dag);
 	Ref u0 = dag_var(dag, VAR_X2), u1 = dag_var(dag, VAR_X3);
 	Ref v0 = dag_var(dag, VAR_Y2), v1 = dag_var(dag, VAR_Y3);
 	Ref start = clamp(dag, dag_var(dag, VAR_X0), u0, u1);
 	Ref end = clamp(dag, dag_var(dag, VAR_X1), u0, u1);
-	Ref xl = minimum(dag, start, end), xr = maximum(dag, start, end);
+	Ref xl = dag_choose(dag, e.run, start, end), xr = dag_choose(dag, e.run, end, start);
 	Ref width = dag_name(dag, dag_sub(dag, start, end), "width");
 	Ref height = dag_name(dag, dag_sub(dag, v1, v0), "height");
 	finish_window(dag, &e, width, mean_height(dag, &e, heights(dag, &e, xl, xr, v0), height));
@@ -220,13 +227,13 @@ static Ref along(Dag *dag, Poly across, Poly up, Span x, Span y)
 
 /* Where an edge that goes from `low` to `high` within a column crosses the knots of the rows, from
  * the left of the column on. */
-static Ref *crossings(Dag *dag, const Cells *cells, Heights y, Ref from, Ref to, Ref one)
+static Ref *crossings(Dag *dag, const Cells *cells, Ref low, Ref high, Ref from, Ref to, Ref one)
 {
 	Ref *x = allocate((size_t)(cells->rows + 1) * sizeof *x), zero = dag_const(dag, rat(0, 1));
-	Ref inverse = dag_div(dag, one, dag_sub(dag, y.high, y.low));
+	Ref inverse = dag_div(dag, one, dag_sub(dag, high, low));
 	Ref width = dag_sub(dag, to, from);
 	for (int r = 0; r <= cells->rows; ++r) {
-		Ref up = dag_sub(dag, dag_const(dag, cells->y[r]), y.low);
+		Ref up = dag_sub(dag, dag_const(dag, cells->y[r]), low);
 		Ref part = clamp(dag, dag_mul(dag, up, inverse), zero, one);
 		Ref between = dag_add(dag, from, dag_mul(dag, part, width));
 		x[r] = dag_choose(dag, dag_sub(dag, one, part), between, to);   /* exact at the end */
@@ -243,13 +250,14 @@ static Ref column(Dag *dag, const Ordered *e, const Cells *cells, int q)
 	Ref rises = dag_sub(dag, y.right, y.left);       /* > 0: the left end is the lower one */
 	Ref near = dag_sub(dag, xl, left), far = dag_sub(dag, xr, left), sum = NONE;
 	Ref from = dag_choose(dag, rises, near, far), to = dag_choose(dag, rises, far, near);
-	const Ref *x = crossings(dag, cells, y, from, to, e->one);
+	Ref lower = minimum(dag, y.left, y.right), upper = maximum(dag, y.left, y.right);
+	const Ref *x = crossings(dag, cells, lower, upper, from, to, e->one);
 	for (int r = 0; r < cells->rows; ++r) {
 		const Poly up = cells_up(cells, q, r);
 		Ref size = dag_const(dag, rat_sub(cells->y[r + 1], cells->y[r]));
 		Ref base = dag_const(dag, cells->y[r]), zero = dag_const(dag, rat(0, 1));
-		Ref low = clamp(dag, dag_sub(dag, y.low, base), zero, size);
-		Ref high = clamp(dag, dag_sub(dag, y.high, base), zero, size);
+		Ref low = clamp(dag, dag_sub(dag, lower, base), zero, size);
+		Ref high = clamp(dag, dag_sub(dag, upper, base), zero, size);
 		Span across = cell_span(dag, x[r], x[r + 1]), rising = cell_span(dag, low, high);
 		if (up.count)
 			sum = dag_add(dag, sum, along(dag, cells->across[q], up, across, rising));
@@ -268,7 +276,7 @@ static Ref column(Dag *dag, const Ordered *e, const Cells *cells, int q)
 Dag *window_filter(const Filter *filter)
 {
 	const Cells cells = filter_cells(filter);
-	Dag *dag = new_window(WINDOW_LINE, "gauss-legendre");
+	Dag *dag = new_window(WINDOW_LINE, "gauss-legendre", rat(1, 1));
 	const Ordered e = ordered(dag);
 	Ref sum = NONE;
 	for (int q = 0; q < cells.columns; ++q)
