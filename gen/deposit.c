@@ -161,7 +161,7 @@ static Ref column_total(const Deposit *d, int q, Rat *before)
 	return dag_sub(dag, end[1], end[0]);
 }
 
-/* Values at the nodes, both of a pair: [node][0 or 1]. */
+/* The nodes, both of a pair: [node][0 or 1], relative to the centre of the cell. */
 typedef struct { int nodes, values[LEGENDRE_MAX]; Ref at[LEGENDRE_MAX][2][2], weight[LEGENDRE_MAX]; } Nodes;
 
 static Nodes nodes_of(const Deposit *d, int count)
@@ -175,6 +175,9 @@ static Nodes nodes_of(const Deposit *d, int count)
 	Ref right = dag_node(dag, OP_MAX, d->u0, d->u1, NONE);
 	Ref start = dag_choose(dag, run, v0, v1), end = dag_choose(dag, run, v1, v0);
 	Span x = cell_span(dag, left, right), y = cell_span(dag, start, end);
+	Ref centre = dag_const(dag, rat(1, 2));
+	x.middle = dag_sub(dag, x.middle, centre);
+	y.middle = dag_sub(dag, y.middle, centre);
 	Ref half = dag_scale(dag, rat(1, 2), run);
 	n.nodes = gauss_legendre(count, tau, weight);
 	for (int i = 0; i < n.nodes; ++i) {
@@ -202,35 +205,107 @@ int deposit_nodes(const Filter *filter)
 	return most_nodes(&cells);
 }
 
-/* The factors of G_qs at a point: across holds the weight. */
-static Ref product(const Deposit *d, int q, int s, Ref across, Ref x, Ref y)
+/* ---- the polynomials at a node ---- */
+
+/* With the centre of the cell as origin. */
+static Poly centred(Poly a, int var)
 {
-	Dag *dag = d->dag;
-	const Cells *c = &d->cells;
-	if (!c->separable) {
-		Poly g = poly_sub(below(c, q, s + 1), below(c, q, s));
-		Ref value = cell_value(dag, g, x, y);
-		return value == NONE ? NONE : dag_mul(dag, across, value);
-	}
-	Poly high = s + 1 < c->rows ? c->up[s + 1]
-		: at_start(c->up[s], VAR_Y, rat(1, 1));
-	Ref value = cell_value(dag, poly_sub(high, s < 0 ? poly_zero() : c->up[s]), x, y);
-	return value == NONE || across == NONE ? NONE : dag_mul(dag, across, value);
+	const Poly by = poly_add(poly_var(var), poly_const(rat(1, 2)));
+	return poly_substitute(a, &var, &by, 1);
 }
 
-static void add_products(const Deposit *d, const Nodes *n, int q, Ref *rows)
+static Poly mirrored(Poly a, int var)
 {
-	Dag *dag = d->dag;
+	const Poly by = poly_scale(poly_var(var), rat(-1, 1));
+	return poly_substitute(a, &var, &by, 1);
+}
+
+/* Its terms of even or odd degree in a variable, the odd ones divided by it, in the square. */
+static Poly half_of(Poly a, int var, int odd)
+{
+	Poly half = { 0, allocate((size_t)(a.count + 1) * sizeof(Term)) };
+	for (int i = 0; i < a.count; ++i) {
+		const int power = mono_power(a.term[i].mono, var);
+		if (power % 2 == odd)
+			half.term[half.count++] = (Term){ mono_var(VAR_X, power / 2),
+				a.term[i].coef };
+	}
+	return half;
+}
+
+/* Values of polynomials in one variable at w. Filters are mostly even: then two polynomials are
+ * mirror images, and their values the sum and the difference of an even and an odd part. */
+static void values_at(Dag *dag, const Poly *poly, int count, int var, Ref w, Ref *value)
+{
+	Ref square = dag_mul(dag, w, w);
+	unsigned char done[DEPOSIT_SIZE] = { 0 };
+	for (int i = 0; i < count; ++i) {
+		if (done[i])
+			continue;
+		const Poly image = mirrored(poly[i], var);
+		int twin = i;
+		while (twin < count && !poly_equal(poly[twin], image))
+			++twin;
+		if (twin == count || poly_degree(poly[i], var) < 2) {
+			value[i] = cell_value(dag, poly[i], w, w);
+			continue;
+		}
+		Ref even = cell_value(dag, half_of(poly[i], var, 0), square, NONE);
+		Ref odd = cell_value(dag, half_of(poly[i], var, 1), square, NONE);
+		value[i] = even;
+		if (odd == NONE)
+			continue;
+		odd = dag_mul(dag, w, odd);
+		value[i] = dag_add(dag, even, odd);
+		value[twin] = even == NONE ? dag_scale(dag, rat(-1, 1), odd)
+			: dag_sub(dag, even, odd);
+		done[twin] = 1;
+	}
+}
+
+/* The factors of G_qs of a separable filter, for all q, and for all s >= 0. */
+static void add_separable(const Deposit *d, const Nodes *n, Ref rows[][DEPOSIT_SIZE])
+{
+	const Cells *c = &d->cells;
+	Poly across[DEPOSIT_SIZE], up[DEPOSIT_SIZE];
+	for (int q = 0; q < d->size; ++q)
+		across[q] = centred(c->across[q], VAR_X);
+	for (int s = 0; s < d->size; ++s) {
+		Poly high = s + 1 < c->rows ? c->up[s + 1] : at_start(c->up[s], VAR_Y, rat(1, 1));
+		up[s] = centred(poly_sub(high, c->up[s]), VAR_Y);
+	}
 	for (int i = 0; i < n->nodes; ++i)
 		for (int k = 0; k < n->values[i]; ++k) {
-			const Ref x = n->at[i][k][0], y = n->at[i][k][1];
-			Ref across = cell_value(dag, d->cells.across[q], x, y);
-			if (across != NONE)
-				across = dag_mul(dag, n->weight[i], across);
-			for (int r = 0; r < d->size; ++r) {
-				Ref term = product(d, q, d->size - 1 - r, across, x, y);
-				rows[r] = term == NONE ? rows[r] : dag_add(dag, rows[r], term);
+			Ref x[DEPOSIT_SIZE], y[DEPOSIT_SIZE];
+			values_at(d->dag, across, d->size, VAR_X, n->at[i][k][0], x);
+			values_at(d->dag, up, d->size, VAR_Y, n->at[i][k][1], y);
+			for (int q = 0; q < d->size; ++q) {
+				if (x[q] == NONE)
+					continue;
+				Ref weighted = dag_mul(d->dag, n->weight[i], x[q]);
+				for (int s = 0; s < d->size; ++s)
+					if (y[s] != NONE)
+						rows[q][s] = dag_add(d->dag, rows[q][s],
+							dag_mul(d->dag, weighted, y[s]));
 			}
+		}
+}
+
+/* G_qs itself. */
+static void add_bivariate(const Deposit *d, const Nodes *n, Ref rows[][DEPOSIT_SIZE])
+{
+	for (int q = 0; q < d->size; ++q)
+		for (int s = 0; s < d->size; ++s) {
+			Poly g = poly_sub(below(&d->cells, q, s + 1), below(&d->cells, q, s));
+			g = centred(centred(g, VAR_X), VAR_Y);
+			for (int i = 0; i < n->nodes; ++i)
+				for (int k = 0; k < n->values[i]; ++k) {
+					Ref value = cell_value(d->dag, g, n->at[i][k][0],
+						n->at[i][k][1]);
+					if (value != NONE)
+						rows[q][s] = dag_add(d->dag, rows[q][s],
+							dag_mul(d->dag, n->weight[i], value));
+				}
 		}
 }
 
@@ -246,19 +321,26 @@ Dag *deposit(const Filter *filter)
 	d.unit = unit_of(&d.cells);
 	d.round = dag_const(dag, rat_mul(d.unit, rat(3 << 22, 1)));
 	const Nodes nodes = nodes_of(&d, most_nodes(&d.cells));
-	Ref out[DEPOSIT_SIZE + 1][DEPOSIT_SIZE], zero = dag_const(dag, rat(0, 1));
+	Ref out[DEPOSIT_SIZE + 1][DEPOSIT_SIZE], rows[DEPOSIT_SIZE][DEPOSIT_SIZE];
+	Ref zero = dag_const(dag, rat(0, 1));
+	for (int i = 0; i < DEPOSIT_SIZE * DEPOSIT_SIZE; ++i)
+		rows[i / DEPOSIT_SIZE][i % DEPOSIT_SIZE] = NONE;
+	if (d.cells.separable)
+		add_separable(&d, &nodes, rows);
+	else
+		add_bivariate(&d, &nodes, rows);
 	for (int q = 0; q < d.size; ++q) {
-		Ref rows[DEPOSIT_SIZE], rest = column_total(&d, q, &before);
-		for (int r = 0; r < d.size; ++r)
-			rows[r] = NONE;
-		add_products(&d, &nodes, q, rows);
+		const int m = d.size - 1 - q;
+		Ref rest = column_total(&d, q, &before);
 		rest = rest == NONE ? zero : rest;
-		for (int r = 0; r < d.size; ++r) {
-			Ref value = rows[r] == NONE ? zero : rounded(&d, rows[r]);
-			out[r][d.size - 1 - q] = value;
-			rest = rows[r] == NONE ? rest : dag_sub(dag, rest, value);
+		for (int s = 0; s < d.size; ++s) {
+			out[d.size - 1 - s][m] = zero;
+			if (rows[q][s] == NONE)
+				continue;
+			out[d.size - 1 - s][m] = rounded(&d, rows[q][s]);
+			rest = dag_sub(dag, rest, out[d.size - 1 - s][m]);
 		}
-		out[d.size][d.size - 1 - q] = rest;
+		out[d.size][m] = rest;
 	}
 	for (int r = 0; r <= d.size; ++r)
 		for (int m = 0; m < d.size; ++m)
