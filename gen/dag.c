@@ -385,9 +385,12 @@ int dag_reverses(Dag *dag)
 			sign[i] = -sign[i];
 		}
 	}
-	for (int k = 0; k < dag->outs; ++k)
-		if (image[dag->out[k]] != dag->out[k] || sign[dag->out[k]] != -1)
+	for (int k = 0; k < dag->outs; ++k) {
+		const Node *out = &dag->node[dag->out[k]];
+		const int is_zero = out->op == OP_CONST && out->value.num == 0;
+		if (!is_zero && (image[dag->out[k]] != dag->out[k] || sign[dag->out[k]] != -1))
 			return 0;
+	}
 	return 1;
 }
 
