@@ -13,11 +13,11 @@
  *
  * Below the piece all that counts is the total of a column, P(u1) - P(u0) with P the primitive of
  * F_q(u, above). So that pixels that no edge crosses get exactly the filter's integral times the
- * winding number, every output is a multiple of a power of two, the unit (2^-20 for filters whose
- * values are around 1): then sums of floats are exact, in any order. P is interpolated between
- * multiples of the unit at both ends of the cell, P = A + u (B + (1 - u) R(u)), which is exact there
- * and moves it by half a unit at most, and is continuous from column to column; the last row is
- * the total less the other rows. Adding and subtracting 3 2^22 units rounds to a unit.
+ * winding number, every output is an integer, in units of a power of two (2^-20 for filters whose
+ * values are around 1): then sums are exact, in any order. P is interpolated between multiples of
+ * the unit at both ends of the cell, P = A + u (B + (1 - u) R(u)), which is exact there and moves it
+ * by half a unit at most, and is continuous from column to column; the last row is the total less
+ * the other rows. Adding and subtracting 3 2^22 rounds to an integer.
  *
  * The ends are put in order first, so that the reverse piece gives exactly the negated outputs. */
 #include "gen.h"
@@ -145,9 +145,11 @@ static Ref column_total(const Deposit *d, int q, Rat *before)
 	const Poly total = poly_integral(d->cells.all[q], VAR_X);
 	Rat after = rat_add(*before, value_of(at_start(total, VAR_X, rat(1, 1))));
 	Rat a = in_units(*before, d->unit), b = rat_sub(in_units(after, d->unit), a);
-	Poly r = between(total, *before, a, b);
+	Poly r = poly_scale(between(total, *before, a, b), rat_div(rat(1, 1), d->unit));
 	Ref one = dag_const(dag, rat(1, 1)), end[2] = { d->u0, d->u1 };
 	*before = after;
+	a = rat_div(a, d->unit);
+	b = rat_div(b, d->unit);
 	for (int k = 0; k < 2; ++k) {
 		Ref u = end[k], inner = cell_value(dag, r, u, NONE);
 		if (inner != NONE)
@@ -178,7 +180,7 @@ static Nodes nodes_of(const Deposit *d, int count)
 	Ref centre = dag_const(dag, rat(1, 2));
 	x.middle = dag_sub(dag, x.middle, centre);
 	y.middle = dag_sub(dag, y.middle, centre);
-	Ref half = dag_scale(dag, rat(1, 2), run);
+	Ref half = dag_scale(dag, rat_div(rat(1, 2), d->unit), run);
 	n.nodes = gauss_legendre(count, tau, weight);
 	for (int i = 0; i < n.nodes; ++i) {
 		n.values[i] = cell_node(dag, x, y, tau[i], n.at[i]);
@@ -319,7 +321,7 @@ Dag *deposit(const Filter *filter)
 	d.u0 = dag_var(dag, VAR_X0);
 	d.u1 = dag_var(dag, VAR_X1);
 	d.unit = unit_of(&d.cells);
-	d.round = dag_const(dag, rat_mul(d.unit, rat(3 << 22, 1)));
+	d.round = dag_const(dag, rat(3 << 22, 1));
 	const Nodes nodes = nodes_of(&d, most_nodes(&d.cells));
 	Ref out[DEPOSIT_SIZE + 1][DEPOSIT_SIZE], rows[DEPOSIT_SIZE][DEPOSIT_SIZE];
 	Ref zero = dag_const(dag, rat(0, 1));

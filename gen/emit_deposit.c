@@ -38,7 +38,7 @@ static void add_deposit(Text *text, const Deposited *deposited, const Target *ta
 	const Program *program = target->fused ? &deposited->fused : &deposited->portable;
 	const Style style = { &precisions[1], 0, 2, 0, NULL, vector ? "out%d = "
 		: "out[%d * reach + i] = ", vector };
-	text_add(text, "\n/* filter %s: %d x %d numbers; multiples of %s.\n",
+	text_add(text, "\n/* filter %s: %d x %d numbers, in units of %s.\n",
 		deposited->filter->name, deposit_size(deposited->filter) + 1,
 		deposit_size(deposited->filter), rat_text(deposit_unit(deposited->filter)));
 	text_add(text, " * Cost per piece: %d %s, %d add; %d values alive, depth %d. */\n",
@@ -100,10 +100,11 @@ static void add_filter(Text *text, const Request *request, const Kernels *kernel
 	text_add(text, "\n");
 	emit_wrapped(text, "/* ", " * ", words);
 	text_add(text, " */\n");
-	text_add(text, "const ew_filter ew_filter_%s = {\n\t\"%s\", %d, %s, %s, %s, %s,\n\t"
+	text_add(text, "const ew_filter ew_filter_%s = {\n\t\"%s\", %d, %s, %s, %s, %s, %s,\n\t"
 		"EW_RING_%s,\n\t{\n", filter->name, filter->name, deposit_size(filter),
 		literal(filter->first_x), literal(filter->first_y), literal(filter->last_x),
-		literal(filter->last_y), emit_upper(filter->name));
+		literal(filter->last_y),
+		literal(deposited ? deposit_unit(filter) : rat(0, 1)), emit_upper(filter->name));
 	for (int t = 0; t < target_count; ++t)
 		if (deposited && request->targets & targets[t].bit)
 			text_add(text, "\t\tEW_DEPOSIT_%s(ew_deposit_%s_%s),\n",

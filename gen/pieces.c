@@ -299,7 +299,9 @@ static void prove_deposit_at(const Number *value, const Dag *dag, const Filter *
 			const int output = row * size + size - 1 - q;
 			Residue want = row == size ? rest
 				: row_value(filter, q, size - 1 - row, p, r, nodes);
-			if (value[dag->out[output]].residue != want)
+			Residue have = residue_multiply(value[dag->out[output]].residue,
+				residue_of(unit));
+			if (have != want)
 				bug("the proof failed: deposit %d of filter %s", output,
 					filter->name);
 			rest = residue_subtract(rest, want);
