@@ -13,8 +13,8 @@
  *
  * Below the piece all that counts is the total of a column, P(u1) - P(u0) with P the primitive of
  * F_q(u, above). So that pixels that no edge crosses get exactly the filter's integral times the
- * winding number, every output is an integer, in units of a power of two (2^-20 for filters whose
- * values are around 1): then sums are exact, in any order. P is interpolated between multiples of
+ * winding number, every output is an integer, in units of a power of two (2^-22 for filters whose
+ * values are below 1): then sums are exact, in any order. P is interpolated between multiples of
  * the unit at both ends of the cell, P = A + u (B + (1 - u) R(u)), which is exact there and moves it
  * by half a unit at most, and is continuous from column to column; the last row is the total less
  * the other rows. Adding and subtracting 3 2^22 rounds to an integer.
@@ -59,6 +59,11 @@ static Poly below(const Cells *cells, int q, int s)
 	return poly_mul(cells->across[q], cells_up(cells, q, s));
 }
 
+static Rat whole_column(const Cells *cells, int q)
+{
+	return value_of(at_start(poly_integral(cells->all[q], VAR_X), VAR_X, rat(1, 1)));
+}
+
 /* The largest coefficient in the Bernstein basis on the unit square: no value is larger. */
 static Rat largest(Poly a)
 {
@@ -82,21 +87,32 @@ static Rat largest(Poly a)
 	return most;
 }
 
-/* 2^-20, or the power of two above it with which all numbers stay below 2^22 units. */
+/* Half the integral of the filter: what the primitive is taken from, so that it is smaller. */
+static Rat middle(const Cells *cells)
+{
+	Rat sum = rat(0, 1);
+	for (int q = 0; q < cells->columns; ++q)
+		sum = rat_add(sum, whole_column(cells, q));
+	return rat_mul(sum, rat(1, 2));
+}
+
+/* The smallest power of two, from 2^-22 on, with which all numbers stay below 7/8 2^22 units. */
 static Rat unit_of(const Cells *cells)
 {
-	Rat most = rat(0, 1), total = rat(0, 1), size = rat(1, 1);
+	Rat most = rat(0, 1), before = rat_neg(middle(cells)), unit = rat(1, 1 << 22);
 	for (int q = 0; q < cells->columns; ++q) {
+		Poly primitive = poly_integral(cells->all[q], VAR_X);
 		for (int s = -1; s < cells->rows; ++s) {
 			Rat g = largest(poly_sub(below(cells, q, s + 1), below(cells, q, s)));
 			most = rat_compare(g, most) > 0 ? g : most;
 		}
-		total = rat_add(total, largest(cells->all[q]));
+		Rat p = largest(poly_add(primitive, poly_const(before)));
+		most = rat_compare(p, most) > 0 ? p : most;
+		before = rat_add(before, whole_column(cells, q));
 	}
-	most = rat_compare(total, most) > 0 ? total : most;
-	while (rat_compare(most, rat_mul(size, rat(7, 2))) > 0)
-		size = rat_mul(size, rat(2, 1));
-	return rat_mul(size, rat(1, 1 << 20));
+	while (rat_compare(most, rat_mul(unit, rat(7 << 19, 1))) > 0)
+		unit = rat_mul(unit, rat(2, 1));
+	return unit;
 }
 
 Rat deposit_unit(const Filter *filter)
@@ -143,12 +159,12 @@ static Ref column_total(const Deposit *d, int q, Rat *before)
 {
 	Dag *dag = d->dag;
 	const Poly total = poly_integral(d->cells.all[q], VAR_X);
-	Rat after = rat_add(*before, value_of(at_start(total, VAR_X, rat(1, 1))));
+	Rat after = rat_add(*before, whole_column(&d->cells, q));
 	Rat a = in_units(*before, d->unit), b = rat_sub(in_units(after, d->unit), a);
 	Poly r = poly_scale(between(total, *before, a, b), rat_div(rat(1, 1), d->unit));
 	Ref one = dag_const(dag, rat(1, 1)), end[2] = { d->u0, d->u1 };
 	*before = after;
-	a = rat_div(a, d->unit);
+	a = rat_div(rat_sub(a, in_units(middle(&d->cells), d->unit)), d->unit);
 	b = rat_div(b, d->unit);
 	for (int k = 0; k < 2; ++k) {
 		Ref u = end[k], inner = cell_value(dag, r, u, NONE);

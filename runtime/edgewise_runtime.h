@@ -17,7 +17,9 @@ enum {
 	EW_TILE = EW_SHORT + 4,      /* room for the columns of rings side by side */
 	EW_SIDES = 3,                /* degrees from 0 that are summed up in registers */
 	EW_ROW = 64,                 /* rings that are summed up so before results are stored */
-	EW_SIDE_SUMS = 6             /* accumulators and results of the last of these degrees */
+	EW_SIDE_SUMS = 6,            /* accumulators and results of the last of these degrees */
+	EW_PIECES = 64,              /* of edges, deposited at a time */
+	EW_DEPOSIT_SIZE = 8          /* pixels per axis of a filter that has deposits */
 };
 
 /* Kinds of edges, in the order in which their sums are added. */
@@ -75,10 +77,27 @@ EW_COLUMNS_TYPE(f, float)
 #define EW_INLINE static inline
 #endif
 
+#ifdef EW_HAS_FILTERS
+/* Pieces of edges on their way into a difference image of sum[row * stride + column]. */
+typedef struct {
+	ew_deposit *run;
+	int32_t *sum;
+	size_t stride, count;
+	int size, columns, rows;       /* N of the filter; cells */
+	size_t place[EW_PIECES];       /* of the first number of a piece */
+	EW_ALIGNED float x[2 * EW_PIECES];
+	EW_ALIGNED float y[2 * EW_PIECES];
+} ew_deposits;
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
+#ifdef EW_HAS_FILTERS
+void ew_deposits_edge(ew_deposits *d, double x0, double y0, double x1, double y1);
+void ew_deposits_end(ew_deposits *d);
+#endif
 unsigned ew_cpu_target(void);  /* the forced target, or the best one: one bit */
 const ew_ring_columns *ew_ring_by_columns(unsigned target);
 const ew_ring_columnsf *ew_ring_by_columnsf(unsigned target);
