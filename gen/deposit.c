@@ -8,16 +8,16 @@
  *     integral of G du,   G_qs(u, v) = F_q(u, v + s + 1) - F_q(u, v + s),   s = N-1 .. -1,
  *
  * for pixel column cx - q and row cy - s; the image is the running sum down the columns. Output
- * r N + m is that of q = N-1 - m, s = N-1 - r: (N + 1) N numbers, by the Gauss-Legendre rule that
- * is exact for the degree.
+ * r N + m, r < N, is that of q = N-1 - m, s = N-1 - r, by the Gauss-Legendre rule that is exact for the
+ * degree; output N N + m is the total of the column, from which whoever adds gets the last row.
  *
- * Below the piece all that counts is the total of a column, P(u1) - P(u0) with P the primitive of
- * F_q(u, above). So that pixels that no edge crosses get exactly the filter's integral times the
- * winding number, every output is an integer, in units of a power of two (2^-22 for filters whose
- * values are below 1): then sums are exact, in any order. P is interpolated between multiples of
- * the unit at both ends of the cell, P = A + u (B + (1 - u) R(u)), which is exact there and moves it
- * by half a unit at most, and is continuous from column to column; the last row is the total less
- * the other rows. Adding and subtracting 3 2^22 rounds to an integer.
+ * Below the piece all that counts is that total, P(u1) - P(u0) with P the primitive of F_q(u, above).
+ * So that pixels that no edge crosses get exactly the filter's integral times the winding number,
+ * totals are integers, in units of a power of two, and whoever adds rounds the rows to units: then
+ * sums are exact, in any order. P is interpolated between multiples of the unit at both ends of the
+ * cell, P = A + u (B + (1 - u) R(u)), which is exact there and moves it by half a unit at most; both
+ * values are rounded by adding and subtracting 3 2^22, less the middle of the column, so that they
+ * are small and units fine.
  *
  * The ends are put in order first, so that the reverse piece gives exactly the negated outputs. */
 #include "gen.h"
@@ -87,28 +87,15 @@ static Rat largest(Poly a)
 	return most;
 }
 
-/* Half the integral of the filter: what the primitive is taken from, so that it is smaller. */
-static Rat middle(const Cells *cells)
-{
-	Rat sum = rat(0, 1);
-	for (int q = 0; q < cells->columns; ++q)
-		sum = rat_add(sum, whole_column(cells, q));
-	return rat_mul(sum, rat(1, 2));
-}
-
-/* The smallest power of two, from 2^-22 on, with which all numbers stay below 7/8 2^22 units. */
+/* The smallest power of two, from 2^-24 on, with which totals stay below 7/8 2^22 units. */
 static Rat unit_of(const Cells *cells)
 {
-	Rat most = rat(0, 1), before = rat_neg(middle(cells)), unit = rat(1, 1 << 22);
+	Rat most = rat(0, 1), unit = rat(1, 1 << 24);
 	for (int q = 0; q < cells->columns; ++q) {
+		Rat half = rat_mul(rat(-1, 2), whole_column(cells, q));
 		Poly primitive = poly_integral(cells->all[q], VAR_X);
-		for (int s = -1; s < cells->rows; ++s) {
-			Rat g = largest(poly_sub(below(cells, q, s + 1), below(cells, q, s)));
-			most = rat_compare(g, most) > 0 ? g : most;
-		}
-		Rat p = largest(poly_add(primitive, poly_const(before)));
-		most = rat_compare(p, most) > 0 ? p : most;
-		before = rat_add(before, whole_column(cells, q));
+		Rat here = largest(poly_add(primitive, poly_const(half)));
+		most = rat_compare(here, most) > 0 ? here : most;
 	}
 	while (rat_compare(most, rat_mul(unit, rat(7 << 19, 1))) > 0)
 		unit = rat_mul(unit, rat(2, 1));
@@ -164,8 +151,8 @@ static Ref column_total(const Deposit *d, int q, Rat *before)
 	Poly r = poly_scale(between(total, *before, a, b), rat_div(rat(1, 1), d->unit));
 	Ref one = dag_const(dag, rat(1, 1)), end[2] = { d->u0, d->u1 };
 	*before = after;
-	a = rat_div(rat_sub(a, in_units(middle(&d->cells), d->unit)), d->unit);
 	b = rat_div(b, d->unit);
+	a = rat(-rat_ceil(rat_mul(b, rat(1, 2))), 1);        /* so that P is around 0 */
 	for (int k = 0; k < 2; ++k) {
 		Ref u = end[k], inner = cell_value(dag, r, u, NONE);
 		if (inner != NONE)
@@ -349,16 +336,10 @@ Dag *deposit(const Filter *filter)
 		add_bivariate(&d, &nodes, rows);
 	for (int q = 0; q < d.size; ++q) {
 		const int m = d.size - 1 - q;
-		Ref rest = column_total(&d, q, &before);
-		rest = rest == NONE ? zero : rest;
-		for (int s = 0; s < d.size; ++s) {
-			out[d.size - 1 - s][m] = zero;
-			if (rows[q][s] == NONE)
-				continue;
-			out[d.size - 1 - s][m] = rounded(&d, rows[q][s]);
-			rest = dag_sub(dag, rest, out[d.size - 1 - s][m]);
-		}
-		out[d.size][m] = rest;
+		Ref total = column_total(&d, q, &before);
+		out[d.size][m] = total == NONE ? zero : total;
+		for (int s = 0; s < d.size; ++s)
+			out[d.size - 1 - s][m] = rows[q][s] == NONE ? zero : rows[q][s];
 	}
 	for (int r = 0; r <= d.size; ++r)
 		for (int m = 0; m < d.size; ++m)

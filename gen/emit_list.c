@@ -196,13 +196,14 @@ static void add_deposits(Text *text, const Request *request, const Kernels *kern
 		return;
 	text_add(text, "\n/* Piece i of an edge within a cell of the pixel grid moved by the corner of a "
 		"filter, (x[i], y[i]) ->\n * (x[reach + i], y[reach + i]) relative to the cell, adds "
-		"out[(r N + m) reach + i] units to row r, column m of a\n * difference image, r <= N, m < N; see "
-		"edgewise_raster_filter.c. Pieces up to a multiple of 16 are computed. */\n"
+		"out[(r N + m) reach + i] units to row r, column m of a\n * difference image, r < N, m < N, and "
+		"what is left of out[(N N + m) reach + i] to row N. That is an integer,\n * the rows are to "
+		"be rounded to integers first. Pieces up to a multiple of 16 are computed. */\n"
 		"typedef void ew_deposit(const float *x, const float *y, size_t reach, size_t count, "
 		"float *out);\n"
 		"struct ew_filter {\n\tconst char *name;\n\tint size;        /* N, pixels per axis; 0: "
 		"knots are not pixels apart */\n\tdouble first_x, first_y, last_x, last_y;   /* support, "
-		"from the centre */\n\tdouble unit;     /* of the deposits, which are integers */\n\tint ring;        /* its kernels over rings */\n"
+		"from the centre */\n\tdouble unit;     /* of the deposits */\n\tint ring;        /* its kernels over rings */\n"
 		"\tew_deposit *deposit[%d];     /* by target, lowest bit first; NULL: not built */\n};\n",
 		TARGETS);
 	for (int t = 0; t < target_count && kernels->deposits; ++t) {

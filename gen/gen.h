@@ -427,7 +427,7 @@ enum { DEPOSIT_SIZE = 8 };                   /* pixels per axis at most */
 int  deposit_size(const Filter *filter);     /* pixels per axis, or 0 if knots are not pixels apart */
 Dag *deposit(const Filter *filter);
 int  deposit_nodes(const Filter *filter);    /* of its rule */
-Rat  deposit_unit(const Filter *filter);     /* of the outputs, which are integers */
+Rat  deposit_unit(const Filter *filter);     /* of the outputs */
 Rat  in_units(Rat value, Rat unit);          /* the nearest multiple */
 
 /* ---- scheme.c: ways to evaluate, and the choice by cost -------------------------------------- */

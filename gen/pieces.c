@@ -293,18 +293,17 @@ static void prove_deposit_at(const Number *value, const Dag *dag, const Filter *
 	const int size = deposit_size(filter), nodes = deposit_nodes(filter);
 	const Rat unit = deposit_unit(filter);
 	for (int q = 0; q < size; ++q) {
-		Residue rest = residue_subtract(moved_primitive(&cells, q, unit, r.x),
+		Residue total = residue_subtract(moved_primitive(&cells, q, unit, r.x),
 			moved_primitive(&cells, q, unit, p.x));
 		for (int row = 0; row <= size; ++row) {
 			const int output = row * size + size - 1 - q;
-			Residue want = row == size ? rest
+			Residue want = row == size ? total
 				: row_value(filter, q, size - 1 - row, p, r, nodes);
 			Residue have = residue_multiply(value[dag->out[output]].residue,
 				residue_of(unit));
 			if (have != want)
 				bug("the proof failed: deposit %d of filter %s", output,
 					filter->name);
-			rest = residue_subtract(rest, want);
 		}
 	}
 }

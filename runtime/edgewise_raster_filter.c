@@ -24,11 +24,17 @@
 
 #define EW_SNAP 0x1.8p29               /* a + EW_SNAP - EW_SNAP: a to a multiple of 2^-23 */
 
+/* To the nearest integer, ties to even. */
+EW_INLINE int32_t ew_deposit_integer(float value)
+{
+	return (int32_t)(((double)value + 0x1.8p52) - 0x1.8p52);
+}
+
 /* From out[(r N + m) reach + i] to to[(r pieces + i) 4 + m], as integers; N <= 4. */
 static void ew_deposit_turn(const float *out, int size, size_t count, int32_t *to)
 {
-	for (int r = 0; r <= size; ++r)
-		for (size_t i = 0; i < count; i += 4) {
+	for (size_t i = 0; i < count; i += 4) {
+		for (int r = 0; r <= size; ++r) {
 			const float *from = out + (size_t)(r * size) * EW_PIECES + i;
 			int32_t *quad = to + ((size_t)r * EW_PIECES + i) * 4;
 #if EW_X86
@@ -45,9 +51,10 @@ static void ew_deposit_turn(const float *out, int size, size_t count, int32_t *t
 			for (int l = 0; l < 4; ++l)
 				for (int m = 0; m < 4; ++m)
 					quad[4 * l + m] = m < size
-						? (int32_t)from[m * EW_PIECES + l] : 0;
+						? ew_deposit_integer(from[m * EW_PIECES + l]) : 0;
 #endif
 		}
+	}
 }
 
 EW_INLINE void ew_deposit_add(int32_t *to, const int32_t *quad)
@@ -62,6 +69,18 @@ EW_INLINE void ew_deposit_add(int32_t *to, const int32_t *quad)
 #endif
 }
 
+EW_INLINE void ew_deposit_subtract(int32_t *from, const int32_t *quad)
+{
+#if EW_X86
+	__m128i *place = (__m128i *)(void *)from;
+	_mm_storeu_si128(place, _mm_sub_epi32(_mm_loadu_si128(place),
+		_mm_loadu_si128((const __m128i *)(const void *)quad)));
+#else
+	for (int m = 0; m < 4; ++m)
+		from[m] -= quad[m];
+#endif
+}
+
 /* Neighbours in the list are mostly neighbours in the image, whose stores a load of the next one
  * would have to wait for: so they are not added one after the other. */
 static void ew_deposit_narrow(ew_deposits *d, size_t count, const float *out)
@@ -69,6 +88,10 @@ static void ew_deposit_narrow(ew_deposits *d, size_t count, const float *out)
 	enum { APART = 8 };
 	int32_t quad[5 * EW_PIECES * 4];
 	ew_deposit_turn(out, d->size, count, quad);
+	for (int r = 0; r < d->size; ++r)
+		for (size_t i = 0; i < count; ++i)
+			ew_deposit_subtract(quad + 4 * ((size_t)d->size * EW_PIECES + i),
+				quad + 4 * ((size_t)r * EW_PIECES + i));
 	for (size_t start = 0; start < APART; ++start)
 		for (size_t i = start; i < count; i += APART) {
 			int32_t *to = d->sum + d->place[i];
@@ -83,11 +106,19 @@ static void ew_deposit_narrow(ew_deposits *d, size_t count, const float *out)
 
 static void ew_deposit_wide(ew_deposits *d, size_t count, const float *out)
 {
+	const size_t size = (size_t)d->size;
 	for (size_t i = 0; i < count; ++i)
-		for (int r = 0; r <= d->size; ++r)
-			for (int m = 0; m < d->size; ++m)
-				d->sum[d->place[i] + (size_t)r * d->stride + (size_t)m] +=
-					(int32_t)out[(size_t)(r * d->size + m) * EW_PIECES + i];
+		for (size_t m = 0; m < size; ++m) {
+			int32_t *to = d->sum + d->place[i] + m;
+			int32_t rest = (int32_t)out[(size * size + m) * EW_PIECES + i];
+			for (size_t r = 0; r < size; ++r) {
+				const int32_t value = ew_deposit_integer(
+					out[(r * size + m) * EW_PIECES + i]);
+				to[r * d->stride] += value;
+				rest -= value;
+			}
+			to[size * d->stride] += rest;
+		}
 }
 
 static void ew_deposits_flush(ew_deposits *d)
@@ -115,9 +146,8 @@ static void ew_deposits_above(ew_deposits *d, int column, double u0, double u1)
 	x[0] = (float)u0;
 	x[16] = (float)u1;
 	d->run(x, y, 16, 1, out);
-	for (int r = 0; r <= d->size; ++r)
-		for (int m = 0; m < d->size; ++m)
-			d->sum[column + m] += (int32_t)out[(r * d->size + m) * 16];
+	for (int m = 0; m < d->size; ++m)
+		d->sum[column + m] += (int32_t)out[(d->size * d->size + m) * 16];
 }
 
 EW_INLINE void ew_deposits_piece(ew_deposits *d, int reversed, int column, int row, double u0,
