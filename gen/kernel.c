@@ -345,6 +345,18 @@ static void build_deposit(Deposited *deposited, const Filter *filter, const Dump
 	prove_deposit(&deposited->fused, filter);
 }
 
+/* A kernel has some 50 operations per cell: beyond this nobody would wait for a compiler. */
+static void check_cells(const Filter *filter)
+{
+	enum { MOST = 16 };
+	const Cells cells = filter_cells(filter);
+	if (cells.columns > MOST || cells.rows > MOST)
+		fatal(EXIT_USAGE, "filter %s has %d x %d cells between its knots; at most %d x %d are "
+			"supported, because kernels beyond would be too long to compile: use fewer "
+			"pieces, or a smaller support", filter->name, cells.columns, cells.rows, MOST,
+			MOST);
+}
+
 static void build_windows(Kernels *all, const Request *request, const Dump *dump,
 	void (*progress)(int done, int of), int rings)
 {
@@ -352,6 +364,7 @@ static void build_windows(Kernels *all, const Request *request, const Dump *dump
 		build_window(next_ring(all, "coverage", "coverage", 0, 0, 1), window_coverage(), dump);
 	for (int i = 0; i < request->filters; ++i) {
 		const Filter *filter = &request->filter[i];
+		check_cells(filter);
 		Ring *ring = next_ring(all, filter->name, "filter", filter->degree, 0, 1);
 		progress(all->rings, rings);
 		ring->filter = filter;
