@@ -21,13 +21,13 @@ COMPILE = $(CC) $(STRICT) -ffp-contract=off $(SANITIZE) $(CFLAGS)
 
 # In the order of the pipeline: nothing calls a file that stands later.
 GEN     := util rational polynomial expression analysis filter spec green dag fuse evaluate \
-           constants bound moments compensated curves logarithm distance conic cells window deposit scheme schedule \
-           proof residue modular pieces kernel emit emit_edge emit_simd emit_ring emit_deposit emit_environment emit_list emit_header \
-           bundle deliver main
+           constants bound moments compensated curves logarithm distance conic cells window \
+           deposit scheme schedule proof residue modular pieces kernel emit emit_edge emit_simd \
+           emit_ring emit_deposit emit_environment emit_list emit_header bundle deliver main
 RUNTIME := $(addprefix runtime/,edgewise_runtime.h edgewise_precision.h edgewise_dispatch.c \
              edgewise_sides_template.h edgewise_columns_template.h edgewise_columns.c \
-             edgewise_rings_template.h edgewise_edges_template.h \
-             edgewise_closure_template.h edgewise_windows_template.h edgewise_trust_template.h edgewise_batches_template.h \
+             edgewise_rings_template.h edgewise_edges_template.h edgewise_windows_template.h \
+             edgewise_closure_template.h edgewise_trust_template.h edgewise_batches_template.h \
              edgewise_rings.c)
 FILTERS := $(addprefix gen/filters/,box.filter tent.filter bspline2.filter bspline3.filter \
              catmull_rom.filter mitchell.filter)
