@@ -181,7 +181,8 @@ void emit_environment(Text *text, const Request *request)
 		"ew_ring_exponent and ew_ring_fraction. */\n%s%s", X86, NEON);
 	text_add(text, "\n/* a > b ? a : b; a < b ? a : b; a > 0 ? b : c; for a >= 1 the integer k with a 2^-k in "
 		"[sqrt 1/2, sqrt 2),\n * and that number. */\n");
-	for (int p = 0; p < precision_count; ++p)
-		if (request->precisions & precisions[p].bit)
+	for (int p = 0; p < precision_count; ++p)    /* deposits of filters are float */
+		if (request->precisions & precisions[p].bit
+		    || (precisions[p].is_float && request->filters))
 			add_scalar(text, &formats[p]);
 }
