@@ -180,10 +180,11 @@ deps-bench:
 
 # ---- tests ----
 
+GEN_TESTS   := units constants filter_files
 RING_TESTS  := rings lanes central ring_contract long_rings kernels batches bounded compensated \
                distance closure
 CURVE_TESTS := curves conics paths
-PROGRAMS    := $(addprefix $(B)/tests/,units constants lines polynomials monomials shapes glyphs \
+PROGRAMS    := $(addprefix $(B)/tests/,$(GEN_TESTS) lines polynomials monomials shapes glyphs \
                $(RING_TESTS) $(CURVE_TESTS))
 TEST_BUILD  = $(CC) -std=gnu11 -Wall -Wextra -ffp-contract=off $(SANITIZE) $(CFLAGS) -Itests
 
@@ -199,7 +200,7 @@ $(B)/monomials.stamp: $(B)/gen
 		--targets portable --no-runtime --out $(B)/monomials
 	@touch $@
 
-$(B)/tests/units $(B)/tests/constants: $(B)/tests/%: tests/%.c tests/check.h \
+$(GEN_TESTS:%=$(B)/tests/%): $(B)/tests/%: tests/%.c tests/check.h \
 		$(filter-out %/main.o %/deliver.o %/bundle.o,$(GEN_OBJ)) \
 		$(B)/obj/embedded_filters.o | $(B)/tests
 	$(TEST_BUILD) -o $@ $(filter %.c %.o,$^) $(LDFLAGS) $(MATH)
@@ -222,12 +223,12 @@ $(B)/tests/%: tests/%.c tests/reference.c $(wildcard tests/*.h) library | $(B)/t
 test: $(PROGRAMS) $(B)/shapes glyphs-if-freetype
 	@sh tests/run.sh $(B)/tests/logs \
 		'layers: sh tests/layers.sh $(B) "$(GEN)"' \
-		'units: $(B)/tests/units' 'constants: $(B)/tests/constants' \
+		$(foreach t,$(GEN_TESTS),'$(t): $(B)/tests/$(t)') \
 		'readme: sh tests/readme.sh $(B)' \
 		'golden: sh tests/golden.sh $(B)' 'counts: sh tests/counts.sh $(B)' \
 		'lines: $(B)/tests/lines' \
 		$(foreach t,$(RING_TESTS) $(CURVE_TESTS),'$(t): $(B)/tests/$(t)') \
-		'fuzz: sh tests/fuzz.sh $(B)' \
+		'fuzz: sh tests/fuzz.sh $(B)' 'filter-fuzz: sh tests/filter_fuzz.sh $(B)' \
 		'polynomials: $(B)/tests/polynomials' 'monomials: $(B)/tests/monomials' \
 		'shapes: $(B)/shapes --exact examples/data/countries.txt | $(B)/tests/shapes' \
 		'glyphs: sh tests/glyphs.sh $(B)' \

@@ -51,25 +51,13 @@ static Poly moved(Poly a, int var, Rat by)
 	return poly_substitute(a, &var, &sum, 1);
 }
 
-static Rat power_of(Rat a, int power)
-{
-	Rat result = rat(1, 1);
-	for (int i = 0; i < power; ++i)
-		result = rat_mul(result, a);
-	return result;
-}
-
 /* The integral over one variable. */
 static Poly integrated(Poly a, int var, Rat from, Rat to)
 {
-	Poly result = { a.count, allocate((size_t)a.count * sizeof(Term)) };
-	for (int i = 0; i < a.count; ++i) {
-		int power = mono_power(a.term[i].mono, var) + 1;
-		Rat length = rat_sub(power_of(to, power), power_of(from, power));
-		result.term[i].mono = a.term[i].mono - mono_var(var, power - 1);
-		result.term[i].coef = rat_mul(a.term[i].coef, rat_mul(length, rat(1, power)));
-	}
-	return poly_collect(result.term, result.count);
+	const Poly primitive = poly_integral(a, var);
+	const Poly ends[2] = { poly_const(from), poly_const(to) };
+	return poly_sub(poly_substitute(primitive, &var, &ends[1], 1),
+		poly_substitute(primitive, &var, &ends[0], 1));
 }
 
 static int lowest_power(Poly a, int var)

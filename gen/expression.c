@@ -54,6 +54,14 @@ static void add_shown(Text *out, const char *text, size_t from, size_t to)
 	}
 }
 
+char *reader_word(const Reader *reader, const char *ends)
+{
+	Text word = { 0 };
+	const size_t size = strcspn(reader->text + reader->at, ends), most = MAX_NAME + 1;
+	add_shown(&word, reader->text, reader->at, reader->at + (size < most ? size : most));
+	return text_take(&word);
+}
+
 int reader_line(const Reader *reader, size_t at)
 {
 	int line = 1;

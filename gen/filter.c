@@ -19,6 +19,8 @@
 enum { MAX_FILE = 1 << 16, MAX_PIECES = 256, MAX_REACH = 1024 };
 enum { WORD_FILTER, WORD_SEPARABLE, WORD_BIVARIATE, WORD_PIECE, WORDS };
 
+#define BLANKS " \t\r\n#"
+
 static const char *const words[WORDS] = { "filter", "separable", "bivariate", "piece" };
 
 /* A file being read, and where its pieces stand. */
@@ -73,20 +75,13 @@ static void end_statement(Reader *reader, const char *expected)
 		syntax_error(reader, reader->at, format("expected %s", expected));
 }
 
-/* The rest of a word, as far as it is fit to be shown. */
-static char *word_at(const Reader *reader)
-{
-	size_t size = strcspn(reader->text + reader->at, " \t\r\n#:");
-	return copy_string(reader->text + reader->at, size > MAX_NAME ? MAX_NAME : size);
-}
-
 /* Reads one of the words of this bit set. */
 static int expect_word(Reader *reader, unsigned wanted, const char *expected)
 {
 	if (!next_statement(reader))
 		syntax_error(reader, reader->at, format("expected %s, but the file ends here",
 			expected));
-	const char *word = word_at(reader);
+	const char *word = reader_word(reader, BLANKS ":");
 	int which = 0;
 	while (which < WORDS && strcmp(word, words[which]) != 0)
 		++which;
@@ -107,15 +102,14 @@ static void read_name(Source *source)
 	expect_word(reader, 1u << WORD_FILTER, "'filter NAME', with which a filter file begins");
 	if (!reader_peek(reader))
 		syntax_error(reader, reader->at, "expected the name of the filter");
-	size_t size = strcspn(reader->text + reader->at, " \t\r\n#");
-	source->filter.name = copy_string(reader->text + reader->at, size);
+	source->filter.name = reader_word(reader, BLANKS);
 	check_identifier("the name of a filter", source->filter.name);
 	check_free("the name of a filter", source->filter.name);
 	const char *stem = name_stem(source->filter.name);
 	if (strcmp(stem, source->filter.name) != 0 && filter_is_builtin(stem))
 		fatal(EXIT_USAGE, "'%s' is the float version of the built-in filter '%s'; choose "
 			"another name", source->filter.name, stem);
-	reader->at += size;
+	reader->at += strlen(source->filter.name);
 	end_statement(reader, "the end of the line");
 }
 
@@ -126,7 +120,7 @@ static void read_kind(Source *source)
 		"'separable', 'separable even' or 'bivariate'");
 	source->filter.separable = which == WORD_SEPARABLE;
 	reader_peek(reader);
-	if (which == WORD_SEPARABLE && strcmp(word_at(reader), "even") == 0) {
+	if (which == WORD_SEPARABLE && strcmp(reader_word(reader, BLANKS), "even") == 0) {
 		source->filter.even = 1;
 		reader->at += strlen("even");
 	}
@@ -198,6 +192,19 @@ static void check_overlap(const Source *source, const Piece *piece, size_t spot)
 				"of line %d", reader_line(&source->reader, source->spot[i])));
 }
 
+/* What overflows in the analysis of one piece should be found at that piece. */
+static void try_piece(Source *source, Piece piece, size_t spot)
+{
+	Filter alone = { .separable = source->filter.separable, .piece = &piece, .pieces = 1 };
+	const Mark mark = arena_mark();
+	const size_t end = source->reader.at;
+	source->reader.at = spot;
+	if (piece.value.count)
+		analyse(&alone);
+	source->reader.at = end;
+	arena_release(mark);
+}
+
 static void read_piece(Source *source)
 {
 	static const char *const knots[] = { "X0", "X1", "Y0", "Y1" };
@@ -219,8 +226,11 @@ static void read_piece(Source *source)
 	if (filter->pieces == MAX_PIECES)
 		syntax_error(reader, spot, format("a filter has at most %d pieces", MAX_PIECES));
 	++reader->at;
+	reader_peek(reader);
+	const size_t expression = reader->at;
 	piece.value = read_sum(reader);
 	end_statement(reader, "an operator or the end of the line");
+	try_piece(source, piece, expression);
 	source->spot[filter->pieces] = spot;
 	filter->piece[filter->pieces++] = piece;
 }

@@ -124,6 +124,8 @@ char *reader_locate(const void *reader, const char *message);   /* a Locate */
 void syntax_error(const Reader *reader, size_t at, const char *message)
 	__attribute__((noreturn));
 int  reader_line(const Reader *reader, size_t at);
+/* What stands here up to one of these characters, if it is not too long, fit to be shown. */
+char *reader_word(const Reader *reader, const char *ends);
 int  reader_peek(Reader *reader);            /* skips blanks; 0 at the end */
 int  is_digit(int c);
 Rat  read_number(Reader *reader);            /* integer or decimal, at its first digit */

@@ -215,8 +215,8 @@ static void complete_families(Request *request)
 	if (!request->edges)
 		request->edges = request->families & FAMILY_CURVES ? ALL_EDGES : EDGE_LINE;
 	if (request->polynomials && !(request->edges & EDGE_LINE))
-		fatal(EXIT_USAGE, "--polynomial: polynomials are integrated over line edges; add line "
-			"to --edges");
+		fatal(EXIT_USAGE, "--polynomial: polynomials are integrated over line edges; "
+			"add line to --edges");
 	if (request->filters && !(request->edges & EDGE_LINE))
 		fatal(EXIT_USAGE, "--filter: filters are integrated over line edges; add line to "
 			"--edges");

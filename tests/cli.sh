@@ -1,5 +1,6 @@
 #!/bin/sh
-# cli.sh - the command line of gen: every option and, from cli_errors.sh beside it, every error.
+# cli.sh - the command line of gen: every option and, from cli_errors.sh beside it, every error;
+# cli_filters.sh has filter files.
 #
 #     sh tests/cli.sh [GEN]        (default: build/gen; CC and CXX choose the compilers)
 #
@@ -137,7 +138,8 @@ default_request() {
 	grep -q '^#define EW_MAX_CURVE_DEGREE 4$' generated/edgewise.h
 	gen --max-degree 4 --out explicit
 	diff -r generated explicit
-	gen --families moments,curves,distance,closure --edges line,quad,conic,cubic --out all
+	gen --families moments,curves,distance,closure,coverage,filters \
+		--edges line,quad,conic,cubic --out all
 	for file in generated/*.[ch]; do
 		sed 's/ --families .*cubic$//' "all/${file#*/}" | cmp - "$file"
 	done
@@ -708,8 +710,8 @@ check dumps
 
 list_help_version() {
 	unchanged . gen --list >../list
-	for word in moments curves distance closure line quad conic cubic portable fma double \
-		float matrix recurrence; do
+	for word in moments curves distance closure coverage filters line quad conic cubic \
+		portable fma double float mitchell matrix recurrence; do
 		grep -qw $word ../list
 	done
 	gen --version | grep -q '^gen [0-9][0-9]*\.[0-9][0-9]*\.[0-9][0-9]*$'
@@ -718,7 +720,7 @@ list_help_version() {
 	[ "$(wc -l <../options)" -ge 20 ]
 	while read -r option; do
 		grep -q -e "$option" "$tests/cli_errors.sh"
-		grep -q -e "$option" "$tests/cli.sh"
+		cat "$tests/cli.sh" "$tests/cli_filters.sh" | grep -q -e "$option"
 	done <../options
 }
 check list_help_version
@@ -839,5 +841,6 @@ link_to_a_file_outside() {
 check link_to_a_file_outside
 
 . "$tests/cli_errors.sh"
+. "$tests/cli_filters.sh"
 
 finish

@@ -112,8 +112,8 @@ expect_error 'unknown option after good ones' 2 "'--degree'" --max-degree 2 --de
 expect_error 'unknown short option' 2 "'-x'" -x
 expect_error 'operand' 2 "'file'" file
 expect_error 'empty option' 2 "''" ''
-for option in --max-degree --families --edges --monomial --polynomial --precision --targets \
-	--prefix --out --scheme --single-header --manifest --depfile --show --format -d; do
+for option in --max-degree --families --edges --monomial --polynomial --filter --precision \
+	--targets --prefix --out --scheme --single-header --manifest --depfile --show --format -d; do
 	expect_error "$option without value" 2 "$option" "$option"
 	[ $option = --monomial ] || expect_error "$option with empty value" 2 "$option" "$option" ''
 done
@@ -139,7 +139,8 @@ expect_error '--single-header with --out' 2 '--out' --single-header new --out ge
 expect_error '--single-header with --no-runtime' 2 '--no-runtime' --single-header new --no-runtime
 expect_error '-d with unknown letter' 2 "'px'" -d px
 expect_error '--families with unknown word' 2 \
-	"unknown word 'areas'; known: moments, curves, distance, closure" --families moments,areas
+	"unknown word 'areas'; known: moments, curves, distance, closure, coverage, filters" \
+	--families moments,areas
 expect_error '--families with trailing comma' 2 "''" --families moments,
 expect_error '--edges with unknown word' 2 "unknown word 'arc'; known: line, quad, conic, cubic" \
 	--edges line,arc

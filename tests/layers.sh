@@ -4,9 +4,9 @@
 #
 #     sh tests/layers.sh BUILD "util rational polynomial ..."     (the variable GEN of the Makefile)
 #
-# The text of the runtime (embedded.o, made by embed.c) is data for bundle alone. Two tests show
-# that the check can fail: the reversed order must be reported, and so must the first object if
-# it is moved behind the last one.
+# What embed.c makes of the runtime is data for bundle alone, and what it makes of filter files for
+# filter. Two tests show that the check can fail: the reversed order must be reported, and so must
+# the first object if it is moved behind the last one.
 set -u
 build=${1:-build}
 order=${2:?the objects in the order of the pipeline}
@@ -42,8 +42,10 @@ for object in $order; do
 done
 
 verdict "layers of gen" "${missing:-$(upward "$order" | head -n 1)}"
-verdict "embedded runtime" "$(awk '
-	$2 == "embedded_runtime" && $1 != "bundle" { print $1 " refers to it" }' "$work/symbols")"
+for table in 'runtime bundle' 'filters filter'; do
+	verdict "embedded ${table% *}" "$(awk -v table="embedded_${table% *}" -v user="${table#* }" '
+		$2 == table && $1 != user { print $1 " refers to it" }' "$work/symbols")"
+done
 verdict "reversed order is reported" "$([ -n "$(upward "$backwards")" ] || echo "it was not")"
 verdict "$first at the end is reported" \
 	"$(upward "$rest $first" | grep -q "refers upwards to [a-z_]* of $first\$" ||
