@@ -281,40 +281,15 @@ EW_INLINE void EW_LOCAL(add_drawn)(EW_LOCAL(edges) *e, int verb, const EW_REAL *
 	if (next == here + 2)
 		EW_LOCAL(add_edge)(e, ew_path_kinds[verb], here);
 	else
-		EW_LOCAL(add_copy)(e, ew_path_kinds[verb], here, next, ew_path_points[verb] + 1);
+		EW_LOCAL(add_copy)(e, ew_path_kinds[verb], here, next, ew_path_points(verb) + 1);
 }
 
-/* 0 if the verbs do not take exactly these points and weights, or are not ours. The first one is
- * a move. */
-static int EW_LOCAL(add_path)(EW_LOCAL(edges) *e, const unsigned char *verbs, size_t verb_count,
-	const EW_REAL *points, size_t point_count, const EW_REAL *weights, size_t weight_count)
-{
-	const EW_REAL *start = points, *here = points, *next = points;
-	for (size_t i = 0; i < verb_count; ++i) {
-		const int verb = verbs[i];
-		if (!ew_path_has(verb) || ew_path_points[verb] > point_count
-		    || (verb == EW_CONIC && weight_count == 0))
-			return 0;
-		point_count -= ew_path_points[verb];
-		if (verb == EW_MOVE || verb == EW_CLOSE) {
-			EW_LOCAL(add_closing)(e, here, start);
-			start = verb == EW_MOVE ? next : start;
-			next += 2 * ew_path_points[verb];
-			here = start;
-			continue;
-		}
-		EW_LOCAL(add_drawn)(e, verb, here, next, weights);
-		if (verb == EW_CONIC) {
-			++weights;
-			--weight_count;
-		}
-		next += 2 * ew_path_points[verb];
-		here = next - 2;
-	}
-	if (verb_count)
-		EW_LOCAL(add_closing)(e, here, start);
-	return point_count == 0 && weight_count == 0;
-}
+#define EW_READ EW_LOCAL(add_path)
+#define EW_READER EW_LOCAL(edges)
+#define EW_READ_HAS ew_path_has
+#define EW_READ_EDGE EW_LOCAL(add_drawn)
+#define EW_READ_CLOSING EW_LOCAL(add_closing)
+#include "edgewise_path_template.h"
 
 int EW_NAME(path_moments)(int degree, const unsigned char *verbs, size_t verb_count,
 	const EW_REAL *points, size_t point_count, const EW_REAL *weights, size_t weight_count,

@@ -11,6 +11,8 @@
  * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 #include "edgewise_runtime.h"
 
+#include <math.h>
+
 #if defined(EW_HAS_FILTERS) && defined(EW_HAS_DOUBLE)
 
 #define EW_FINE 0x1.8p8                /* a + EW_FINE - EW_FINE: a to a multiple of 2^-44 */
@@ -96,7 +98,6 @@ void ew_raster_general_end(ew_raster_general *image, float *pixels, ptrdiff_t ro
 			pixels[j * row_stride + i] = (float)((sum[i] + EW_COARSE) - EW_COARSE);
 		}
 	}
-	EW_FREE(image->sum);
 }
 
 #else

@@ -55,8 +55,7 @@ static int ew_ring_kind(int kind, int degree)
 #endif
 
 #ifdef EW_MAX_CURVE_DEGREE
-/* By verb: points that it takes, and the kind of its edge. */
-static const size_t ew_path_points[] = { 1, 1, 2, 2, 3, 0 };
+/* By verb: the kind of its edge. */
 static const int ew_path_kinds[] = {
 	0, EW_KIND_LINE, EW_KIND_QUAD, EW_KIND_CONIC, EW_KIND_CUBIC, 0
 };
@@ -164,4 +163,11 @@ static ew_ring_finish *ew_ring_finish_columns(unsigned used, int degree, size_t 
 #include "edgewise_batches_template.h"
 #endif
 #undef EW_IS_FLOAT
+#endif
+
+#if defined(EW_HAS_FILTERS) && defined(EW_HAS_DOUBLE)
+ew_ring_run *ew_ring_kernel_of(int id, unsigned used)
+{
+	return ew_ring_kernel(id, used);
+}
 #endif

@@ -78,25 +78,40 @@ EW_COLUMNS_TYPE(f, float)
 #endif
 
 #ifdef EW_HAS_FILTERS
-/* Pieces of edges on their way into a difference image of sum[row * stride + column]. */
-typedef struct {
-	ew_deposit *run;
-	int32_t *sum;
-	size_t stride, count;
-	int size, columns, rows;       /* N of the filter; cells */
-	size_t place[EW_PIECES];       /* of the first number of a piece */
-	EW_ALIGNED float x[2 * EW_PIECES];
-	EW_ALIGNED float y[2 * EW_PIECES];
-} ew_deposits;
+/* Scratch of images, the only memory that is allocated. */
+#ifndef EW_MALLOC
+#include <stdlib.h>
+#define EW_MALLOC(size) malloc(size)
+#define EW_FREE(pointer) free(pointer)
 #endif
+
+#ifdef EW_HAS_DOUBLE
+/* An image by a filter whose knots are not a pixel apart (edgewise_raster_general.c). */
+typedef struct {
+	const ew_filter *filter;
+	double *sum;
+	int width, height;
+	ew_ring_run *run;
+} ew_raster_general;
+#endif
+#endif
+
+/* Points that a verb of a path takes. */
+EW_INLINE size_t ew_path_points(int verb)
+{
+	return verb == EW_CLOSE ? 0 : verb <= EW_LINE ? 1 : verb == EW_CUBIC ? 3 : 2;
+}
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-#ifdef EW_HAS_FILTERS
-void ew_deposits_edge(ew_deposits *d, double x0, double y0, double x1, double y1);
-void ew_deposits_end(ew_deposits *d);
+#if defined(EW_HAS_FILTERS) && defined(EW_HAS_DOUBLE)
+int ew_raster_general_begin(ew_raster_general *image, const ew_filter *filter, int width, int height);
+void ew_raster_general_edge(const ew_raster_general *image, double x0, double y0, double x1,
+	double y1);
+void ew_raster_general_end(ew_raster_general *image, float *pixels, ptrdiff_t row_stride);
+ew_ring_run *ew_ring_kernel_of(int id, unsigned used);
 #endif
 unsigned ew_cpu_target(void);  /* the forced target, or the best one: one bit */
 const ew_ring_columns *ew_ring_by_columns(unsigned target);

@@ -1,0 +1,768 @@
+/* edgewise_raster.c - images: exact coverage of pixels, plain or weighted by a filter.
+ *
+ * Every edge is cut at the lines of the grid into pieces within one cell, and a piece adds to a
+ * difference image what makes all pixels right from there on down; pixels are its running sum down
+ * the columns. A piece (u0, v0) -> (u1, v1) of the cell in some row adds (u1 - u0) (1 - v) to that
+ * row and (u1 - u0) v to the next one, v = (v0 + v1) / 2. With a filter of N cells a side a program
+ * of gen, its deposit, gives N numbers for each of N + 1 rows.
+ *
+ * Vertices are rounded to a grid of 2^-22 pixel, and so are the points where edges cross lines of
+ * whole pixels. Sums are integers in units of that grid (or of the filter): exact in any order, so
+ * the same on all targets, and exactly 0 in columns that no edge crosses; |winding| < 512. Where an
+ * edge crosses a line is computed from its left end, rounded once, whatever part of the edge is in
+ * the image: so reversed edges have the same points and shifted ones too, and nothing drifts.
+ *
+ * What is left or right of the image falls into a column beside it; of what is above all that
+ * counts is how far it goes to the right, and it falls into a row before the first one. A difference
+ * image that would not stay in the cache is made in bands of rows: edges are rounded first, listed
+ * by the band where they begin, and what the rows of a band add to those below is carried on.
+ *
+ * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
+#include "edgewise_runtime.h"
+
+#ifdef EW_HAS_FILTERS
+
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+enum {
+	EW_GRID = 22,                  /* bits of a pixel */
+	EW_ONE = 1 << EW_GRID,
+	EW_FURTHEST = 1 << 30,         /* coordinate */
+	EW_LARGEST = 1 << 28,          /* width or height */
+	EW_POINTS = 64,                /* vertices rounded at a time */
+	EW_LANES_OF_EDGES = 8,         /* at most: points behind them */
+	EW_SMALL = 8192,               /* numbers of a difference image on the stack */
+	EW_BAND = 1 << 16,             /* numbers of a difference image at a time */
+	EW_STRIP = 64,                 /* pixels of a row that are looked at or not */
+	EW_SHORT_EDGE = 11             /* dx + dy of edges that are cut side by side */
+};
+
+#define EW_TO_GRID 0x1.8p30            /* sums with it are rounded to the grid */
+#define EW_PIXEL (1.0 / EW_ONE)
+#define EW_FLATNESS 0x1p-8             /* how far lines are from their curve, in pixels */
+#define EW_FARTHEST_BEND 0x1p40        /* of a conic that is looked at */
+#define EW_RELATIVE 0x1p28             /* distances that are rounded by themselves */
+
+/* Where cells begin, and between which coordinates a point surely is in one of the image. */
+typedef struct { double origin, low, high; } ew_raster_axis;
+enum { EW_IN_RANGE = 1, EW_WITHIN = 2 };
+
+/* Pieces that wait for a deposit. */
+typedef struct {
+	ew_deposit *run;
+	size_t count;
+	EW_ALIGNED float x[2 * EW_PIECES];
+	EW_ALIGNED float y[2 * EW_PIECES];
+	EW_ALIGNED int32_t place[EW_PIECES];
+	EW_ALIGNED float out[(EW_DEPOSIT_SIZE + 1) * EW_DEPOSIT_SIZE * EW_PIECES];
+} ew_raster_pieces;
+
+/* Short edges that wait until all lanes are full. */
+typedef struct {
+	double px[EW_POINTS + EW_LANES_OF_EDGES], py[EW_POINTS + EW_LANES_OF_EDGES];
+	double qx[EW_POINTS + EW_LANES_OF_EDGES], qy[EW_POINTS + EW_LANES_OF_EDGES];
+	size_t count;
+} ew_raster_short;
+
+/* Edges that wait for their bands: the points of each ring, the last one before them too. */
+typedef struct {
+	double *x, *y;
+	int32_t *next;                 /* of the same band; EW_NO_EDGE: a ring ends here */
+	int32_t *band;                 /* its first edge */
+	size_t count;
+} ew_raster_list;
+enum { EW_NO_MORE = -1, EW_NO_EDGE = -2 };
+
+/* A difference image of some rows of cells, with a row above them and a column on both sides. */
+typedef struct {
+	const struct ew_raster_ways *ways;
+	int width, height, size;       /* size: cells of the filter a side */
+	int columns, cells;            /* of the whole image; cells: rows of them */
+	int first, last, tall;         /* rows of cells of this band; behind them; of any band */
+	int32_t *sum;
+	size_t stride, above;          /* above: rows before those of the first pixels */
+	uint64_t *touched;             /* bits of blocks of pixels, for every row; NULL: all are */
+	int block;                     /* log2 of the pixels in one */
+	float unit;
+	ew_raster_axis x, y;
+	ew_raster_short *edges;
+	ew_raster_pieces *pieces;      /* NULL: box, or a filter in general */
+	ew_raster_list *list;          /* NULL: a single band */
+	int is_general;                /* neither: knots are not a pixel apart */
+#ifdef EW_HAS_DOUBLE
+	ew_raster_general general;
+#endif
+} ew_raster_image;
+
+/* What fits on the stack. */
+typedef struct {
+	ew_raster_list list;
+	ew_raster_short edges;
+	ew_raster_pieces pieces;
+	EW_ALIGNED int32_t sum[EW_SMALL];
+} ew_raster_scratch;
+
+typedef struct { float *floats; unsigned char *bytes; ptrdiff_t stride; } ew_raster_pixels;
+
+/* What a target does by vectors. */
+typedef struct ew_raster_ways {
+	unsigned (*round)(const ew_raster_image *image, const double *x, const double *y,
+		size_t count, double *to_x, double *to_y);
+	unsigned (*roundf)(const ew_raster_image *image, const float *x, const float *y,
+		size_t count, double *to_x, double *to_y);
+	void (*edges)(const ew_raster_image *image, const double *px, const double *py,
+		const double *qx, const double *qy, size_t count, int clip);
+	void (*finish)(const ew_raster_image *image);
+	void (*scatter)(const ew_raster_image *image);
+	void (*floats)(const ew_raster_image *image, float *pixels, int rows, ptrdiff_t stride);
+	void (*bytes)(const ew_raster_image *image, unsigned char *pixels, int rows,
+		ptrdiff_t stride);
+} ew_raster_ways;
+
+/* ---- pieces ---- */
+
+EW_INLINE void ew_raster_add(int32_t *to, int64_t value)
+{
+	*to = (int32_t)((uint32_t)*to + (uint32_t)value);
+}
+
+EW_INLINE int64_t ew_raster_clamp(int64_t v, int64_t low, int64_t high)
+{
+	v = v < low ? low : v;
+	return v > high ? high : v;
+}
+
+/* Blocks of pixels that change if pieces in columns c0 .. c1, counted from the one on the left, of
+ * a row do. */
+static void ew_raster_touch(const ew_raster_image *image, size_t row, int64_t c0, int64_t c1)
+{
+	const int64_t most = image->width - 1;
+	const int b0 = (int)(ew_raster_clamp(c0 - image->size, 0, most) >> image->block);
+	const int b1 = (int)(ew_raster_clamp(c1 - 1, 0, most) >> image->block);
+	const uint64_t bits = (~(uint64_t)0 << b0) & (~(uint64_t)0 >> (63 - b1));
+	for (int r = 0; r <= image->size; ++r)
+		image->touched[row + (size_t)r] |= bits;
+}
+
+/* Runs the deposit over the pieces that wait. Those to fill the lanes go nowhere. */
+static void ew_raster_flush(const ew_raster_image *image)
+{
+	ew_raster_pieces *p = image->pieces;
+	for (size_t i = p->count; i < EW_PIECES && i % 16; ++i) {
+		p->x[i] = p->x[EW_PIECES + i] = p->y[i] = p->y[EW_PIECES + i] = 0;
+		p->place[i] = 0;
+	}
+	p->run(p->x, p->y, EW_PIECES, p->count, p->out);
+	image->ways->scatter(image);
+	p->count = 0;
+}
+
+/* To the nearest integer, ties to even. */
+EW_INLINE int32_t ew_raster_integer(float value)
+{
+	return (int32_t)(((double)value + 0x1.8p52) - 0x1.8p52);
+}
+
+static void ew_raster_scatter_scalar(const ew_raster_image *image)
+{
+	const ew_raster_pieces *p = image->pieces;
+	const size_t size = (size_t)image->size;
+	for (size_t i = 0; i < p->count; ++i)
+		for (size_t m = 0; m < size; ++m) {
+			int32_t *to = image->sum + p->place[i] + m;
+			const float *from = p->out + m * EW_PIECES + i;
+			int32_t rest = (int32_t)from[size * size * EW_PIECES];
+			for (size_t r = 0; r < size; ++r, to += image->stride) {
+				const int32_t value = ew_raster_integer(
+					from[r * size * EW_PIECES]);
+				ew_raster_add(to, value);
+				rest -= value;
+			}
+			ew_raster_add(to, rest);
+		}
+}
+
+/* ---- an edge of any length, anywhere ---- */
+
+EW_INLINE int64_t ew_raster_bits(double v)
+{
+	int64_t bits;
+	memcpy(&bits, &v, sizeof bits);
+	return bits;
+}
+
+/* A coordinate in units of the grid. */
+EW_INLINE int64_t ew_raster_fixed(double v)
+{
+	return ew_raster_bits(v + EW_TO_GRID) - ew_raster_bits(EW_TO_GRID);
+}
+
+/* An edge from left to right, turned over if it goes up; abscissas in units from the left column. */
+typedef struct {
+	double x0, y0, x1, y1;         /* x0 < x1, y0 <= y1 */
+	double across, along;          /* dx / dy, dy / dx */
+	int64_t from, to;
+	int leftwards, up;
+} ew_raster_edge;
+
+/* start + along in units of the grid: rounded relative to the start, unless that is too far. */
+EW_INLINE int64_t ew_raster_sum(double start, double along)
+{
+	if (along < EW_RELATIVE && along > -EW_RELATIVE)
+		return ew_raster_fixed(start) + ew_raster_fixed(along);
+	return ew_raster_bits((EW_TO_GRID + start) + along) - ew_raster_bits(EW_TO_GRID);
+}
+
+/* Within the columns on both sides, from the left one. */
+EW_INLINE int64_t ew_raster_column(const ew_raster_image *image, int64_t x)
+{
+	return ew_raster_clamp(x + EW_ONE, 0, (int64_t)(image->columns + 2) << EW_GRID);
+}
+
+/* Abscissa on the line y = j. */
+EW_INLINE int64_t ew_raster_cross(const ew_raster_image *image, const ew_raster_edge *e, double j,
+	int plain)
+{
+	const double along = (j - e->y0) * e->across;
+	return plain ? e->from + ew_raster_fixed(along)
+		: ew_raster_column(image, ew_raster_sum(e->x0, along));
+}
+
+/* Ordinate in row j on the line x = i. */
+EW_INLINE int64_t ew_raster_height(const ew_raster_edge *e, double j, double i, int plain)
+{
+	const double along = (i - e->x0) * e->along;
+	return plain ? ew_raster_fixed(e->y0 - j) + ew_raster_fixed(along)
+		: ew_raster_sum(e->y0 - j, along);
+}
+
+/* What `count` pieces side by side add, v = v0 + v1. */
+EW_INLINE void ew_raster_deposit(const ew_raster_image *image, const ew_raster_edge *e, int32_t *to,
+	int64_t total, int64_t v, int64_t count)
+{
+	const int64_t twice = total * (2 * EW_ONE - v);
+	const int64_t nearer = (twice + EW_ONE - 1 + (twice >> (EW_GRID + 1) & 1))
+		>> (EW_GRID + 1);              /* to nearest, ties to even */
+	const int64_t sign = e->leftwards ? -1 : 1;
+	const int64_t upper = sign * (e->up ? total - nearer : nearer), lower = sign * total - upper;
+	int32_t *below = to + image->stride;
+	for (int64_t i = 0; i < count; ++i) {
+		ew_raster_add(to + i, upper);
+		ew_raster_add(below + i, lower);
+	}
+}
+
+/* A piece that waits. */
+static void ew_raster_wait(const ew_raster_image *image, const ew_raster_edge *e, int64_t place,
+	int64_t u0, int64_t u1, int64_t v0, int64_t v1)
+{
+	ew_raster_pieces *p = image->pieces;
+	const size_t start = p->count + (e->leftwards ? (size_t)EW_PIECES : 0);
+	const size_t end = p->count + (e->leftwards ? 0 : (size_t)EW_PIECES);
+	if (u0 == u1)
+		return;
+	p->place[p->count] = (int32_t)place;
+	p->x[start] = (float)((double)u0 * EW_PIXEL);
+	p->x[end] = (float)((double)u1 * EW_PIXEL);
+	p->y[start] = (float)((double)(e->up ? EW_ONE - v0 : v0) * EW_PIXEL);
+	p->y[end] = (float)((double)(e->up ? EW_ONE - v1 : v1) * EW_PIXEL);
+	if (++p->count > EW_PIECES - 4)                /* room for four lanes */
+		ew_raster_flush(image);
+}
+
+EW_INLINE void ew_raster_piece(const ew_raster_image *image, const ew_raster_edge *e, int64_t place,
+	int64_t u0, int64_t u1, int64_t v0, int64_t v1, int plain)
+{
+	if (plain || !image->pieces)
+		ew_raster_deposit(image, e, image->sum + place, u1 - u0, v0 + v1, 1);
+	else
+		ew_raster_wait(image, e, place, u0, u1, v0, v1);
+}
+
+/* The part of an edge in row j, turned over like the edge, between abscissas x0 and x1 and
+ * ordinates v0 and v1 of the row. */
+EW_INLINE void ew_raster_row(const ew_raster_image *image, const ew_raster_edge *e, int j, int64_t x0,
+	int64_t x1, int64_t v0, int64_t v1, int plain)
+{
+	const int64_t row = (e->up ? -1 - j : j) - image->first + 1, last = (x1 - 1) >> EW_GRID;
+	int64_t column = x0 >> EW_GRID, place = row * (int64_t)image->stride + column;
+	if (!plain && image->touched)
+		ew_raster_touch(image, (size_t)row, column, last > column ? last : column);
+	if (plain && v0 == v1 && column < last) {              /* level */
+		ew_raster_piece(image, e, place, x0 - (column << EW_GRID), EW_ONE, v0, v1, plain);
+		ew_raster_deposit(image, e, image->sum + place + 1, EW_ONE, 2 * v0,
+			last - column - 1);
+		place += last - column;
+		column = last;
+		x0 = last << EW_GRID;
+	}
+	for (; column < last; ++column, ++place) {
+		const int64_t left = column << EW_GRID;
+		const int64_t v = v0 == v1 ? v0 : ew_raster_clamp(
+			ew_raster_height(e, j, (double)column, plain), v0, v1);
+		ew_raster_piece(image, e, place, x0 - left, EW_ONE, v0, v, plain);
+		x0 = left + EW_ONE;
+		v0 = v;
+	}
+	column <<= EW_GRID;
+	ew_raster_piece(image, e, place, x0 - column, x1 - column, v0, v1, plain);
+}
+
+/* The rows of an edge in this band; what is above the first one belongs to the row before it. Plain:
+ * all of it is inside, and neither pieces nor bands need more. */
+EW_INLINE void ew_raster_rows(const ew_raster_image *image, const ew_raster_edge *e, int plain)
+{
+	const int above = image->first == 0 ? -1 : image->first;
+	const int first = e->up ? -image->last : above, last = e->up ? -1 - above : image->last - 1;
+	double low = floor(e->y0), high = ceil(e->y1) - 1;
+	high = high < low ? low : high;
+	if (!plain) {
+		if (above < 0 && e->up) {
+			low = low > last ? last : low;
+			high = high > last ? last : high;
+		} else if (above < 0) {
+			low = low < first ? first : low;
+			high = high < first ? first : high;
+		}
+		if (high < first || low > last)
+			return;
+	}
+	int j = !plain && low < first ? first : (int)low;
+	const int end = !plain && high > last ? last : (int)high;
+	int64_t x = !plain && low < first ? ew_raster_cross(image, e, j, plain) : e->from;
+	int64_t v = ew_raster_clamp(ew_raster_fixed(e->y0 - j), 0, EW_ONE);
+	for (; j < end; ++j) {
+		const int64_t next = ew_raster_cross(image, e, j + 1.0, plain);
+		ew_raster_row(image, e, j, x, next, v, EW_ONE, plain);
+		x = next;
+		v = 0;
+	}
+	ew_raster_row(image, e, j, x, !plain && high > last
+		? ew_raster_cross(image, e, j + 1.0, plain) : e->to, v,
+		ew_raster_clamp(ew_raster_fixed(e->y1 - j), 0, EW_ONE), plain);
+}
+
+static void ew_raster_edge_alone(const ew_raster_image *image, double px, double py, double qx,
+	double qy, int clip)
+{
+	ew_raster_edge e;
+	e.leftwards = px > qx;
+	e.x0 = e.leftwards ? qx : px;
+	e.x1 = e.leftwards ? px : qx;
+	e.y0 = e.leftwards ? qy : py;
+	e.y1 = e.leftwards ? py : qy;
+	e.up = e.y0 > e.y1;
+	e.y0 = e.up ? -e.y0 : e.y0;
+	e.y1 = e.up ? -e.y1 : e.y1;
+	e.from = ew_raster_column(image, ew_raster_fixed(e.x0));
+	e.to = ew_raster_column(image, ew_raster_fixed(e.x1));
+	e.across = (e.x1 - e.x0) / (e.y1 - e.y0);
+	e.along = (e.y1 - e.y0) / (e.x1 - e.x0);
+	if (!clip && !image->pieces && e.from < e.to)
+		ew_raster_rows(image, &e, 1);
+	else if (e.from < e.to)
+		ew_raster_rows(image, &e, 0);
+}
+
+static void ew_raster_edges_scalar(const ew_raster_image *image, const double *px, const double *py,
+	const double *qx, const double *qy, size_t count, int clip)
+{
+	for (size_t i = 0; i < count; ++i)
+		ew_raster_edge_alone(image, px[i], py[i], qx[i], qy[i], clip);
+}
+
+static void ew_raster_finish_scalar(const ew_raster_image *image)
+{
+	(void)image;
+}
+
+/* ---- vertices ---- */
+
+/* A coordinate, rounded to the grid. */
+EW_INLINE unsigned ew_raster_round(double v, const ew_raster_axis *axis, double *to)
+{
+	*to = ((v - axis->origin) + EW_TO_GRID) - EW_TO_GRID;
+	return (unsigned)(v >= -EW_FURTHEST && v <= EW_FURTHEST ? EW_IN_RANGE : 0)
+		| (unsigned)(v >= axis->low && v <= axis->high ? EW_WITHIN : 0);
+}
+
+#define EW_ROUND(f, real) \
+static unsigned ew_raster_round##f##_scalar(const ew_raster_image *image, const real *x, \
+	const real *y, size_t count, double *to_x, double *to_y) \
+{ \
+	unsigned flags = (unsigned)EW_IN_RANGE | (unsigned)EW_WITHIN; \
+	for (size_t i = 0; i < count; ++i) { \
+		flags &= ew_raster_round((double)x[i], &image->x, to_x + i); \
+		flags &= ew_raster_round((double)y[i], &image->y, to_y + i); \
+	} \
+	return flags; \
+}
+EW_ROUND(, double)
+EW_ROUND(f, float)
+#undef EW_ROUND
+
+/* ---- pixels ---- */
+
+/* Nearest of 255 |sum|, sum in pixels. */
+EW_INLINE unsigned char ew_raster_byte(int32_t sum)
+{
+	uint32_t size = sum < 0 ? 0 - (uint32_t)sum : (uint32_t)sum;
+	size = size > EW_ONE ? EW_ONE : size;
+	return (unsigned char)((size * 255 + EW_ONE / 2) >> EW_GRID);
+}
+
+#define EW_SWEEP(stem, type, value) \
+static void ew_raster_##stem##_scalar(const ew_raster_image *image, type *pixels, int rows, \
+	ptrdiff_t stride) \
+{ \
+	for (int i = 0; i < image->width; ++i) { \
+		int32_t *from = image->sum + image->size + i, sum = 0; \
+		for (size_t j = 0; j < image->above; ++j, from += image->stride) \
+			ew_raster_add(&sum, *from); \
+		for (int j = 0; j < rows; ++j, from += image->stride) { \
+			ew_raster_add(&sum, *from); \
+			if (image->touched) \
+				*from = 0; \
+			pixels[j * stride + i] = value; \
+		} \
+		image->sum[image->size + i] = sum; \
+	} \
+}
+EW_SWEEP(floats, float, (float)sum * image->unit)
+EW_SWEEP(bytes, unsigned char, ew_raster_byte(sum))
+#undef EW_SWEEP
+
+/* The beginning of a row of pixels; size is less than 64. */
+EW_INLINE void ew_raster_put(void *to, const void *from, size_t size)
+{
+	unsigned char *t = (unsigned char *)to;
+	const unsigned char *f = (const unsigned char *)from;
+#define EW_PUT(bytes) \
+	if (size & (bytes)) { \
+		memcpy(t, f, bytes); \
+		t += bytes; \
+		f += bytes; \
+	}
+	EW_PUT(32)
+	EW_PUT(16)
+	EW_PUT(8)
+	EW_PUT(4)
+	EW_PUT(2)
+	EW_PUT(1)
+#undef EW_PUT
+}
+
+/* ---- filters whose knots are not a pixel apart ---- */
+
+static int ew_raster_begin_general(ew_raster_image *image, const ew_filter *filter)
+{
+	image->is_general = 1;
+#ifdef EW_HAS_DOUBLE
+	return ew_raster_general_begin(&image->general, filter, image->width, image->height);
+#else
+	(void)filter;
+	return EW_UNSUPPORTED;         /* only kernels of double are precise enough */
+#endif
+}
+
+static void ew_raster_edges_general(const ew_raster_image *image, const double *px, const double *py,
+	const double *qx, const double *qy, size_t count, int clip)
+{
+	(void)clip;
+#ifdef EW_HAS_DOUBLE
+	for (size_t i = 0; i < count; ++i)
+		ew_raster_general_edge(&image->general, px[i], py[i], qx[i], qy[i]);
+#else
+	(void)image, (void)px, (void)py, (void)qx, (void)qy, (void)count;
+#endif
+}
+
+static void ew_raster_draw_general(ew_raster_image *image, const ew_raster_pixels *to)
+{
+#ifdef EW_HAS_DOUBLE
+	ew_raster_general_end(&image->general, to->floats, to->stride);
+#else
+	(void)image, (void)to;
+#endif
+}
+
+static void ew_raster_end_general(ew_raster_image *image)
+{
+#ifdef EW_HAS_DOUBLE
+	EW_FREE(image->general.sum);
+#else
+	(void)image;
+#endif
+}
+
+#include "edgewise_raster_targets.h"
+
+/* ---- images ---- */
+
+/* What is wrong with an image, before anything is written. */
+static int ew_raster_check(const void *pixels, int width, int height, ptrdiff_t stride)
+{
+	const ptrdiff_t most = PTRDIFF_MAX / (ptrdiff_t)sizeof(float) / (height > 0 ? height : 1);
+	if (width < 0 || height < 0 || width > EW_LARGEST || height > EW_LARGEST)
+		return EW_BAD_IMAGE;
+	if (width == 0 || height == 0)
+		return EW_OK;
+	if (!pixels || (height > 1 && ((stride < width && stride > -width) || stride > most
+	    || stride < -most)))
+		return EW_BAD_IMAGE;
+	return EW_OK;
+}
+
+static void ew_raster_axis_of(ew_raster_axis *axis, double first, int cells)
+{
+	axis->origin = first + 0.5;
+	axis->low = axis->origin;
+	axis->high = axis->origin + cells - EW_PIXEL;
+}
+
+/* Everything but scratch. */
+static void ew_raster_shape(ew_raster_image *image, const ew_filter *filter, int width, int height)
+{
+	image->ways = ew_raster_by_target(ew_cpu_target());
+	image->width = width;
+	image->height = height;
+	image->size = filter && filter->size ? filter->size : 1;
+	image->columns = width + image->size - 1;
+	image->cells = height + image->size - 1;
+	image->unit = filter ? (float)filter->unit : (float)EW_PIXEL;
+	/* room for whole vectors, and not a multiple of 4 KiB */
+	image->stride = ((size_t)image->columns + (size_t)image->size + 1 + 4 + 15) / 16 * 16;
+	image->stride += image->stride % 1024 ? 0 : 16;
+	ew_raster_axis_of(&image->x, filter && filter->size ? filter->first_x : -0.5,
+		image->columns);
+	ew_raster_axis_of(&image->y, filter && filter->size ? filter->first_y : -0.5,
+		image->cells);
+	image->first = 0;
+	image->last = image->tall = image->cells;
+	image->touched = NULL;
+	image->list = NULL;
+	image->pieces = NULL;
+	image->is_general = 0;
+	image->above = (size_t)image->size;
+	image->block = 0;
+	while ((width - 1) >> image->block >= 64)
+		++image->block;
+	image->block = image->block < 6 ? 6 : image->block;
+}
+
+/* Numbers of the difference image. */
+static size_t ew_raster_numbers(const ew_raster_image *image)
+{
+	return ((size_t)image->tall + (size_t)image->size + 1) * image->stride;
+}
+
+static size_t ew_raster_bands(const ew_raster_image *image)
+{
+	return ((size_t)image->cells + (size_t)image->tall - 1) / (size_t)image->tall;
+}
+
+/* Scratch for bands and points in one piece. */
+static int ew_raster_begin_bands(ew_raster_image *image, ew_raster_list *list, size_t points)
+{
+	const size_t tall = EW_BAND / image->stride, size = (size_t)image->size;
+	image->tall = tall > size ? (int)tall : image->size;
+	const size_t numbers = ew_raster_numbers(image), rows = (size_t)image->tall + size + 1;
+	const size_t bands = ew_raster_bands(image) + 1, room = points + EW_LANES_OF_EDGES;
+	if (numbers > INT32_MAX || room > INT32_MAX)
+		return EW_NO_MEMORY;
+	char *all = (char *)EW_MALLOC(rows * sizeof(uint64_t) + 2 * room * sizeof(double)
+		+ (numbers + bands + room) * sizeof(int32_t));
+	if (!all)
+		return EW_NO_MEMORY;
+	image->touched = (uint64_t *)(void *)all;
+	list->x = (double *)(void *)(image->touched + rows);
+	list->y = list->x + room;
+	image->sum = (int32_t *)(void *)(list->y + room);
+	list->band = image->sum + numbers;
+	list->next = list->band + bands;
+	list->count = 0;
+	memset(image->touched, 0, rows * sizeof(uint64_t));
+	memset(image->sum, 0, numbers * sizeof *image->sum);
+	image->list = list;
+	return EW_OK;
+}
+
+static void ew_raster_begin_pieces(ew_raster_image *image, const ew_filter *filter,
+	ew_raster_pieces *pieces)
+{
+	int t = 0;
+	while (ew_cpu_target() >> t > 1)
+		++t;
+	pieces->run = filter->deposit[t];
+	pieces->count = 0;
+	image->pieces = pieces;
+}
+
+static int ew_raster_is_box(const ew_filter *filter)
+{
+	return !filter || strcmp(filter->name, "box") == 0;
+}
+
+/* An empty image, for at most that many points; filter NULL: box. */
+static int ew_raster_begin(ew_raster_image *image, const ew_filter *filter, int width, int height,
+	size_t points, ew_raster_scratch *scratch)
+{
+	filter = ew_raster_is_box(filter) ? NULL : filter;
+	ew_raster_shape(image, filter, width, height);
+	const size_t numbers = ew_raster_numbers(image);
+	image->edges = &scratch->edges;
+	scratch->edges.count = 0;
+	if (filter && filter->size == 0) {
+		image->ways = &ew_raster_ways_general;
+		return ew_raster_begin_general(image, filter);
+	}
+	if (filter)
+		ew_raster_begin_pieces(image, filter, &scratch->pieces);
+	if (numbers > EW_BAND)
+		return ew_raster_begin_bands(image, &scratch->list, points);
+	image->sum = numbers <= EW_SMALL ? scratch->sum
+		: (int32_t *)EW_MALLOC(numbers * sizeof *image->sum);
+	if (!image->sum)
+		return EW_NO_MEMORY;
+	memset(image->sum, 0, numbers * sizeof *image->sum);
+	return EW_OK;
+}
+
+static void ew_raster_end(ew_raster_image *image, const ew_raster_scratch *scratch)
+{
+	if (image->is_general)
+		ew_raster_end_general(image);
+	else if (image->list)
+		EW_FREE(image->touched);
+	else if (image->sum != scratch->sum)
+		EW_FREE(image->sum);
+}
+
+static void ew_raster_sweep(const ew_raster_image *image, const ew_raster_pixels *to, int row,
+	int rows)
+{
+	image->ways->finish(image);
+	if (image->pieces && image->pieces->count)
+		ew_raster_flush(image);
+	if (to->floats)
+		image->ways->floats(image, to->floats + row * to->stride, rows, to->stride);
+	else
+		image->ways->bytes(image, to->bytes + row * to->stride, rows, to->stride);
+}
+
+/* Lists every edge with the band where it begins; in order, so from the last one. */
+static void ew_raster_sort(ew_raster_image *image)
+{
+	ew_raster_list *list = image->list;
+	const size_t bands = ew_raster_bands(image);
+	for (size_t b = 0; b <= bands; ++b)
+		list->band[b] = EW_NO_MORE;
+	for (size_t i = list->count; i-- > 0; ) {
+		if (list->next[i] == EW_NO_EDGE || list->x[i] == list->x[i + 1])
+			continue;
+		const double top = list->y[i] < list->y[i + 1] ? list->y[i] : list->y[i + 1];
+		if (top >= image->cells)
+			continue;
+		const size_t b = top > 0 ? (size_t)top / (size_t)image->tall : 0;
+		list->next[i] = list->band[b];
+		list->band[b] = (int32_t)i;
+	}
+}
+
+/* The edges of a band, of which some go on in the next one. */
+static void ew_raster_band(const ew_raster_image *image, size_t band)
+{
+	const ew_raster_list *list = image->list;
+	double p[2][EW_POINTS + EW_LANES_OF_EDGES], q[2][EW_POINTS + EW_LANES_OF_EDGES];
+	int32_t next = list->band[band];
+	while (next != EW_NO_MORE) {
+		size_t count = 0;
+		for (; count < EW_POINTS && next != EW_NO_MORE; ++count) {
+			const int32_t i = next;
+			next = list->next[i];
+			p[0][count] = list->x[i];
+			p[1][count] = list->y[i];
+			q[0][count] = list->x[i + 1];
+			q[1][count] = list->y[i + 1];
+			if (p[1][count] > image->last || q[1][count] > image->last) {
+				list->next[i] = list->band[band + 1];
+				list->band[band + 1] = i;
+			}
+		}
+		for (size_t i = count; i % EW_LANES_OF_EDGES; ++i)
+			p[0][i] = p[1][i] = q[0][i] = q[1][i] = 0;
+		image->ways->edges(image, p[0], p[1], q[0], q[1], count, 1);
+	}
+}
+
+/* Readies the difference image for the band below: the sum of all rows is the first one already. */
+static void ew_raster_carry(ew_raster_image *image)
+{
+	const size_t size = (size_t)image->size, row = image->stride * sizeof *image->sum;
+	int32_t *below = image->sum + ((size_t)image->tall + 1) * image->stride;
+	memcpy(image->sum + image->stride, below, size * row);
+	memset(below, 0, size * row);
+	memcpy(image->touched + 1, image->touched + image->tall + 1, size * sizeof(uint64_t));
+	memset(image->touched + size + 1, 0, (size_t)image->tall * sizeof(uint64_t));
+}
+
+static void ew_raster_draw(ew_raster_image *image, const ew_raster_pixels *to)
+{
+	if (image->is_general) {
+		ew_raster_draw_general(image, to);
+		return;
+	}
+	if (!image->list) {
+		ew_raster_sweep(image, to, 0, image->height);
+		return;
+	}
+	ew_raster_sort(image);
+	int row = 0;
+	for (size_t b = 0; row < image->height; ++b) {
+		image->first = (int)b * image->tall;
+		image->last = image->cells - image->first < image->tall ? image->cells
+			: image->first + image->tall;
+		const int end = image->last - image->size + 1;
+		ew_raster_band(image, b);
+		ew_raster_sweep(image, to, row, end - row);
+		row = end;
+		image->above = 1;
+		ew_raster_carry(image);
+	}
+}
+
+static int ew_raster_has(int verb)
+{
+	return verb <= EW_CLOSE;
+}
+
+static int ew_raster_bad_offsets(const int32_t *offsets, size_t rings)
+{
+	uint32_t start = rings ? (uint32_t)offsets[0] : 0, signs = start;
+	for (size_t i = 0; i < rings; ++i) {
+		const uint32_t end = (uint32_t)offsets[i + 1];
+		signs |= end | (end - start);
+		start = end;
+	}
+	return signs >> 31 != 0;
+}
+
+#ifdef EW_HAS_DOUBLE
+#define EW_IS_FLOAT 0
+#include "edgewise_precision.h"
+#include "edgewise_raster_template.h"
+#undef EW_IS_FLOAT
+#endif
+
+#ifdef EW_HAS_FLOAT
+#define EW_IS_FLOAT 1
+#include "edgewise_precision.h"
+#include "edgewise_raster_template.h"
+#undef EW_IS_FLOAT
+#endif
+
+#else
+extern int ew_ring_not_built;          /* a file must not be empty */
+#endif
