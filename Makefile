@@ -3,6 +3,9 @@
 #   make deps        install what the tests need (Debian: apt-get)
 #   make test        all tests            make bench       against machine and peers
 #   make glyphs      examples/glyphs, which needs FreeType
+#   make render      examples/render, which needs FreeType and libpng; make sheet, make plots:
+#                    its contact sheet, and the plots of the filters in examples/filters
+#   make filters     the library and render with filters of yours: FILTER='my.filter other.filter'
 #   make generated   emit generated/ anew make layers      no object refers upwards in the pipeline
 #   make accept      accept new golden outputs             make clean
 #   make test-cross  the same bits on other machines       make accept-hashes  accept new bits
@@ -38,11 +41,11 @@ LIB     := $(B)/libedgewise.a
 SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
 MATH    := -lmpfr -lgmp -lm
 
-.PHONY: all library objects generated glyphs glyphs-if-freetype test test-cross deps bench \
-        deps-bench layers accept accept-hashes clean
+.PHONY: all library objects generated glyphs glyphs-if-freetype render render-if-libraries sheet \
+        plots filters test test-cross deps bench deps-bench layers accept accept-hashes clean
 .DELETE_ON_ERROR:
 
-all: library $(B)/shapes
+all: library $(B)/shapes render-if-libraries
 	@$(B)/shapes examples/data/countries.txt
 
 # ---- gen ----
@@ -98,7 +101,7 @@ $(B)/shapes: examples/shapes.c library
 FREETYPE = $(or $(shell pkg-config --cflags --libs freetype2 2>/dev/null), \
            -I/usr/include/freetype2 -lfreetype)
 
-$(B)/glyphs: examples/glyphs.c library
+$(B)/glyphs: examples/glyphs.c examples/utf8.h library
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) $(FREETYPE) -lm
 
 glyphs: $(B)/glyphs
@@ -110,16 +113,82 @@ glyphs-if-freetype:
 		rm -f $(B)/glyphs; \
 	fi
 
+PNG = $(or $(shell pkg-config --cflags --libs libpng 2>/dev/null),-lpng)
+RENDER := $(addprefix examples/render/,main.c drawing.c font.c svg.c countries.c picture.c png.c \
+            sheet.c)
+# render knows the filters that the header in this folder declares.
+KNOWN_FILTERS = $$(sed -n 's/^extern const ew_filter ew_filter_\(.*\);/X(\1)/p' \
+                $1/edgewise.h | tr '\n' ' ')
+RENDER_BUILD = $(COMPILE) -std=c11 "-DRENDER_FILTERS(X)=$(call KNOWN_FILTERS,$1)" -I$1 -o $@ \
+               $(RENDER) $2 $(LDFLAGS) $(FREETYPE) $(PNG) -lm
+
+$(B)/render: $(RENDER) examples/render/render.h examples/utf8.h library
+	$(call RENDER_BUILD,$(B)/emitted,$(LIB))
+
+render: $(B)/render
+
+sheet: $(B)/render
+	$(B)/render sheet examples/render/sheet.png
+
+render-if-libraries:
+	@if printf '#include <ft2build.h>\n#include <stdio.h>\n#include <png.h>\n' | \
+		$(CC) -x c -fsyntax-only $(FREETYPE) $(PNG) - 2>/dev/null; then \
+		$(MAKE) --no-print-directory render; \
+	else \
+		rm -f $(B)/render $(B)/filters/render; \
+	fi
+
+# The library with filters of the user's besides its own, in $(B)/filters, and render with it.
+FILTER   ?= $(sort $(wildcard examples/filters/*.filter))
+FILTERED  = $(sort $(wildcard $(B)/filters/emitted/*.c))
+
+$(B)/filters $(B)/filters/lib:
+	@mkdir -p $@
+
+filters: $(B)/gen | $(B)/filters
+	$(B)/gen --families filters $(FILTER:%=--filter %) \
+		--out $(B)/filters/emitted
+	@$(MAKE) --no-print-directory $(B)/filters/render
+
+$(B)/filters/lib/%.o: $(B)/filters/emitted/%.c $(wildcard $(B)/filters/emitted/*.h) \
+		| $(B)/filters/lib
+	$(COMPILE) -std=c99 -c -o $@ $<
+
+$(B)/filters/libedgewise.a: $(FILTERED:$(B)/filters/emitted/%.c=$(B)/filters/lib/%.o)
+	@rm -f $@
+	ar rcs $@ $^
+
+$(B)/filters/render: $(RENDER) examples/render/render.h examples/utf8.h \
+		$(B)/filters/libedgewise.a
+	$(call RENDER_BUILD,$(B)/filters/emitted,$(B)/filters/libedgewise.a)
+
+# plot reads filters as gen does. Beside each of ours stands one that is built in.
+PLOTS := bspline5:bspline3 quintic:mitchell disc:bspline3
+
+$(B)/plot: examples/filters/plot.c $(filter-out %/main.o %/deliver.o %/bundle.o,$(GEN_OBJ)) \
+		$(B)/obj/embedded_filters.o
+	$(COMPILE) -std=c11 -D_POSIX_C_SOURCE=200809L -Igen -o $@ $^ $(LDFLAGS) -lm
+
+plots: $(B)/plot
+	for pair in $(PLOTS); do \
+		name=examples/filters/$${pair%:*}; \
+		$(B)/plot $$name.filter $${pair#*:} $$name.svg || exit 1; \
+	done
+
 # ---- bench: make bench BENCH='--quick --json FILE'; peers are optional (make deps-bench) ----
 
 # As their users would compile them. System headers are not ours to warn about.
-PEER_FLAGS := -O3 -march=native -DNDEBUG -isystem /usr/include/opencv4
+PEER_FLAGS := -O3 -march=native -DNDEBUG -isystem /usr/include/opencv4 \
+              -isystem /usr/include/freetype2
 PEER_C     := $(CC) -x c -std=c11 $(STRICT) $(PEER_FLAGS)
 PEER_CXX   := $(CXX) -x c++ -Wall -Wextra $(PEER_FLAGS)
 
 BENCH_PARTS    := bench measure table vectors targets polygons kernels order schemes trust streams \
-                  batches contest curves paths distance chart
-BENCH_PACKAGES := g++ libgeos-dev libboost-dev libcgal-dev libopencv-imgproc-dev
+                  batches contest curves paths distance raster_scenes raster_exact raster_race \
+                  raster_contest raster_tables raster_filters raster_windows raster_downsample \
+                  raster_chart raster chart
+BENCH_PACKAGES := g++ libgeos-dev libboost-dev libcgal-dev libopencv-imgproc-dev \
+                  libfreetype-dev libcairo2-dev libagg-dev libstb-dev fonts-dejavu-core
 # A peak of multiply-adds and a scalar kernel must stay what they are written as.
 BENCH_COMPILE   = $(COMPILE) -std=c11 -fno-tree-vectorize -fno-tree-slp-vectorize \
                   -I$(B)/emitted $(BENCH_EMITS:%=-I$(B)/bench.%)
@@ -148,9 +217,13 @@ $(B)/bench.%/kernels.a: $(B)/bench.%.stamp
 $(B)/bench.obj:
 	@mkdir -p $@
 
-$(B)/bench.obj/%.o: bench/%.c bench/bench.h bench/peers.h bench/vector_template.h \
+$(B)/bench.obj/%.o: bench/%.c bench/bench.h bench/peers.h bench/raster.h \
+		bench/vector_template.h \
 		$(B)/emitted.stamp $(BENCH_EMITS:%=$(B)/bench.%.stamp) | $(B)/bench.obj
 	$(BENCH_COMPILE) -c -o $@ $<
+
+# Vectorised, unlike the rest, as the peers are.
+$(B)/bench.obj/raster_downsample.o: BENCH_COMPILE = $(PEER_C) -ffp-contract=fast -I$(B)/emitted
 
 # name, file, compiler, its header, what to link: compiled if the header is there.
 define peer_rule
@@ -169,6 +242,10 @@ $(eval $(call peer_rule,Boost,peer_boost.cpp,$(PEER_CXX),boost/geometry.hpp,-lst
 $(eval $(call peer_rule,CGAL,peer_cgal.cpp,$(PEER_CXX),CGAL/Polygon_2.h,-lstdc++ -lmpfr -lgmp))
 $(eval $(call peer_rule,OpenCV,peer_opencv.cpp,$(PEER_CXX),opencv2/imgproc.hpp,-lopencv_imgproc \
 	-lopencv_core -lstdc++))
+$(eval $(call peer_rule,FreeType,peer_freetype.c,$(PEER_C),ft2build.h,-lfreetype))
+$(eval $(call peer_rule,cairo,peer_cairo.c,$(PEER_C),cairo/cairo.h,-lcairo))
+$(eval $(call peer_rule,AGG,peer_agg.cpp,$(PEER_CXX),agg2/agg_basics.h,-lagg -lstdc++))
+$(eval $(call peer_rule,stb,peer_stb.c,$(PEER_C),stb/stb_truetype.h,))
 
 $(B)/bench: $(BENCH_OBJECTS) $(BENCH_PEERS:=.o) $(BENCH_EMITS:%=$(B)/bench.%/kernels.a) library
 	$(COMPILE) -o $@ $(filter %.o %.a,$^) $(LIB) $(LDFLAGS) $$(cat $(BENCH_PEERS:=.link)) -lm
@@ -222,7 +299,8 @@ $(B)/tests/monomials: tests/monomials.c tests/reference.c $(B)/monomials.stamp |
 $(B)/tests/%: tests/%.c tests/reference.c $(wildcard tests/*.h) library | $(B)/tests
 	$(TEST_BUILD) -I$(B)/emitted -o $@ $(filter %.c,$^) $(LIB) $(LDFLAGS) $(MATH)
 
-test: $(PROGRAMS) $(B)/shapes glyphs-if-freetype
+test: $(PROGRAMS) $(B)/shapes $(B)/plot glyphs-if-freetype render-if-libraries
+	@if [ -x $(B)/render ]; then $(MAKE) --no-print-directory filters; fi
 	@sh tests/run.sh $(B)/tests/logs \
 		'layers: sh tests/layers.sh $(B) "$(GEN)"' \
 		$(foreach t,$(GEN_TESTS),'$(t): $(B)/tests/$(t)') \
@@ -233,7 +311,7 @@ test: $(PROGRAMS) $(B)/shapes glyphs-if-freetype
 		'fuzz: sh tests/fuzz.sh $(B)' 'filter-fuzz: sh tests/filter_fuzz.sh $(B)' \
 		'polynomials: $(B)/tests/polynomials' 'monomials: $(B)/tests/monomials' \
 		'shapes: $(B)/shapes --exact examples/data/countries.txt | $(B)/tests/shapes' \
-		'glyphs: sh tests/glyphs.sh $(B)' \
+		'glyphs: sh tests/glyphs.sh $(B)' 'render: sh tests/render.sh $(B)' \
 		'command-line: sh tests/cli.sh $(B)/gen' \
 		'same-output: sh tests/same_output.sh $(B)' \
 		'mutation: sh tests/mutation.sh $(B)' 'matrix: sh tests/matrix.sh $(B)' \
@@ -255,12 +333,13 @@ accept: $(B)/gen
 
 # gmp and mpfr for the reference; the other compilers only widen the compile matrix; the cross
 # compilers and qemu are for test-cross. (gcc-multilib would remove the cross compilers.) FreeType,
-# fonts and fontTools are for examples/glyphs; with munkres fontTools does without SciPy.
+# fonts and fontTools are for examples/glyphs, libpng is for examples/render; with munkres fontTools
+# does without SciPy.
 PACKAGES := gcc g++ clang libclang-rt-14-dev tcc make binutils libc6-dev libgmp-dev libmpfr-dev \
             gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-i686-linux-gnu \
             libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user \
-            libfreetype-dev pkg-config fonts-dejavu-core fonts-gfs-didot python3-fonttools \
-            python3-munkres
+            libfreetype-dev libpng-dev pkg-config fonts-dejavu-core fonts-gfs-didot \
+            python3-fonttools python3-munkres
 deps:
 	@if command -v apt-get >/dev/null; then \
 		run=; [ "$$(id -u)" = 0 ] || run=sudo; \

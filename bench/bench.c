@@ -12,21 +12,25 @@ static const struct { const char *name; void (*run)(const Effort *effort); } sec
 	{ "machine", section_machine }, { "kernels", section_kernels }, { "order", section_order },
 	{ "schemes", section_schemes }, { "trust", section_trust }, { "streams", section_streams },
 	{ "batches", section_batches }, { "contest", section_contest }, { "curves", section_curves },
+	{ "raster", section_raster },
 };
 enum { SECTIONS = (int)(sizeof sections / sizeof *sections) };
 
-typedef struct { int quick; const char *only, *json, *svg; } Options;
+typedef struct { int quick; const char *only, *json, *svg, *svg_raster; } Options;
 
 static int usage(FILE *out, int status)
 {
-	fprintf(out, "usage: bench [--quick] [--only SECTION] [--json FILE] [--svg FILE]\n"
-		"  --quick         few rounds, to see that everything runs\n"
-		"  --only SECTION  one of:");
+	fprintf(out, "usage: bench [--quick] [--only SECTION] [--json FILE] [--svg FILE] "
+		"[--svg-raster FILE]\n"
+		"  --quick            few rounds, to see that everything runs\n"
+		"  --only SECTION     one of:");
 	for (int i = 0; i < SECTIONS; ++i)
 		fprintf(out, " %s", sections[i].name);
-	fprintf(out, "\n  --json FILE     all figures\n"
-		"  --svg FILE      plot of slots per edge against the operation count; needs the "
-		"kernels\n");
+	fprintf(out, "\n  --json FILE        all figures\n"
+		"  --svg FILE         plot of slots per edge against the operation count; needs "
+		"the kernels\n"
+		"  --svg-raster FILE  plot of times FreeType's speed over the size of glyphs; "
+		"needs the raster\n");
 	return status;
 }
 
@@ -44,7 +48,8 @@ static int read_options(Options *o, char **argument)
 	for (; *argument; ++argument) {
 		const char **place = strcmp(*argument, "--only") == 0 ? &o->only
 			: strcmp(*argument, "--json") == 0 ? &o->json
-			: strcmp(*argument, "--svg") == 0 ? &o->svg : NULL;
+			: strcmp(*argument, "--svg") == 0 ? &o->svg
+			: strcmp(*argument, "--svg-raster") == 0 ? &o->svg_raster : NULL;
 		if (strcmp(*argument, "--quick") == 0)
 			o->quick = 1;
 		else if (place && argument[1])
@@ -54,7 +59,8 @@ static int read_options(Options *o, char **argument)
 	}
 	if (o->only && !known_section(o->only))
 		return 0;
-	return !(o->svg && o->only && strcmp(o->only, "kernels") != 0);
+	return !(o->svg && o->only && strcmp(o->only, "kernels") != 0)
+		&& !(o->svg_raster && o->only && strcmp(o->only, "raster") != 0);
 }
 
 static int written(int good, const char *file)
@@ -66,7 +72,7 @@ static int written(int good, const char *file)
 
 int main(int argc, char **argv)
 {
-	Options o = { 0, NULL, NULL, NULL };
+	Options o = { 0, NULL, NULL, NULL, NULL };
 	if (argc == 2 && strcmp(argv[1], "--help") == 0)
 		return usage(stdout, 0);
 	if (!read_options(&o, argv + (argc > 0)))
@@ -84,5 +90,7 @@ int main(int argc, char **argv)
 		good &= written(tables_json(o.json, o.quick), o.json);
 	if (o.svg)
 		good &= written(chart_write(o.svg), o.svg);
+	if (o.svg_raster)
+		good &= written(raster_chart_write(o.svg_raster), o.svg_raster);
 	return good ? 0 : 1;
 }

@@ -16,6 +16,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 enum { DOUBLE, FLOAT, PRECISIONS };
 extern const char *const precision_names[PRECISIONS];
@@ -159,6 +160,16 @@ void section_contest(const Effort *effort);
 void section_curves(const Effort *effort);     /* curves.c, and these two: */
 void paths_tables(const Effort *effort);       /* paths.c */
 void distance_tables(const Effort *effort);    /* distance.c */
+void section_raster(const Effort *effort);     /* raster.c, and what raster.h names */
+
+/* ---- chart.c ---- */
+
+void svg_page(FILE *out, int wide, int high, const char *title);       /* up to </svg> */
+__attribute__((format(printf, 6, 7)))
+void svg_text(FILE *out, const char *kind, double x, double y, const char *anchor,
+	const char *format, ...);
+void svg_mark(FILE *out, int kind, double x, double y);
 int  chart_write(const char *file);            /* 0 if the file could not be written */
+int  raster_chart_write(const char *file);     /* likewise; raster_chart.c */
 
 #endif

@@ -1,4 +1,4 @@
-/* chart.c - a plot of slots per edge against the operation count, as SVG.
+/* chart.c - a plot of slots per edge against the operation count, as SVG, and what plots share.
  *
  * Both axes are logarithmic. A kernel with f operations on the FMA pipe cannot take fewer than f
  * slots: that is the diagonal, and the distance of a mark above it is what the target loses.
@@ -28,6 +28,43 @@ static const char STYLE[] =
 	".t4{fill:#bc8cff;stroke:#bc8cff}}\n"
 	"</style>\n";
 
+/* ---- shared ---- */
+
+void svg_page(FILE *out, int wide, int high, const char *title)
+{
+	fprintf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" "
+		"height=\"%d\" role=\"img\">\n<title>%s</title>\n%s"
+		"<rect class=\"page\" width=\"%d\" height=\"%d\"/>\n", wide, high, wide, high,
+		title, STYLE, wide, high);
+}
+
+void svg_text(FILE *out, const char *kind, double x, double y, const char *anchor,
+	const char *format, ...)
+{
+	va_list arguments;
+	fprintf(out, "<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\">", kind, x, y,
+		anchor);
+	va_start(arguments, format);
+	vfprintf(out, format, arguments);
+	va_end(arguments);
+	fprintf(out, "</text>\n");
+}
+
+void svg_mark(FILE *out, int kind, double x, double y)
+{
+	static const char *const shapes[] = {
+		"M%.1f %.1fm-5 -5h10v10h-10z", "M%.1f %.1fm0 -6l6 10h-12z",
+		"M%.1f %.1fm0 -6l6 6l-6 6l-6 -6z", "M%.1f %.1fm-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0",
+		"M%.1f %.1fm0 6l6 -10h-12z",
+	};
+	static const int kinds = (int)(sizeof shapes / sizeof *shapes);
+	fprintf(out, "<path class=\"t%d\" d=\"", kind % kinds);
+	fprintf(out, shapes[kind % kinds], x, y);
+	fprintf(out, "\"/>\n");
+}
+
+/* ---- slots ---- */
+
 static const char TITLE[] =
 	"All moments to degree N, double: slots per edge against the limit";
 
@@ -41,31 +78,18 @@ static double place_y(double slots)
 	return BOTTOM - (BOTTOM - TOP) * log(slots / Y_FIRST) / log(Y_LAST / Y_FIRST);
 }
 
-__attribute__((format(printf, 6, 7)))
-static void write_text(FILE *out, const char *kind, double x, double y, const char *anchor,
-	const char *format, ...)
-{
-	va_list arguments;
-	fprintf(out, "<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\">", kind, x, y,
-		anchor);
-	va_start(arguments, format);
-	vfprintf(out, format, arguments);
-	va_end(arguments);
-	fprintf(out, "</text>\n");
-}
-
 static void write_axes(FILE *out)
 {
 	static const int ticks[] = { 1, 2, 5, 10, 20, 50, 100, 200 };
 	for (size_t i = 0; i < sizeof ticks / sizeof *ticks; ++i) {
 		double y = place_y(ticks[i]);
 		fprintf(out, "<path class=\"grid\" d=\"M%d %.1fH%d\"/>\n", LEFT, y, RIGHT);
-		write_text(out, "soft", LEFT - 8, y + 4, "end", "%d", ticks[i]);
+		svg_text(out, "soft", LEFT - 8, y + 4, "end", "%d", ticks[i]);
 	}
-	write_text(out, "ink", (LEFT + RIGHT) / 2, HIGH - 16, "middle",
+	svg_text(out, "ink", (LEFT + RIGHT) / 2, HIGH - 16, "middle",
 		"operations on the FMA pipe per edge (log scale)");
 	fprintf(out, "<g transform=\"translate(20 %d) rotate(-90)\">", (TOP + BOTTOM) / 2);
-	write_text(out, "ink", 0, 0, "middle", "slots per edge (log scale)");
+	svg_text(out, "ink", 0, 0, "middle", "slots per edge (log scale)");
 	fprintf(out, "</g>\n");
 }
 
@@ -76,25 +100,12 @@ static void write_degrees(FILE *out, const Target *target)
 		int f = target->kernels[DOUBLE][EW_RING_MOMENTS_0 + n].f;
 		double x = place_x(f);
 		fprintf(out, "<path class=\"grid\" d=\"M%.1f %dV%d\"/>\n", x, TOP, BOTTOM);
-		write_text(out, "soft", x, BOTTOM + 18, "middle", "%d", f);
-		write_text(out, "ink", x, TOP - 8, "middle", "%d", n);
+		svg_text(out, "soft", x, BOTTOM + 18, "middle", "%d", f);
+		svg_text(out, "ink", x, TOP - 8, "middle", "%d", n);
 	}
-	write_text(out, "ink", LEFT - 8, TOP - 8, "end", "N");
+	svg_text(out, "ink", LEFT - 8, TOP - 8, "end", "N");
 	fprintf(out, "<path class=\"limit\" d=\"M%.1f %.1fL%.1f %.1f\"/>\n", place_x(1),
 		place_y(1), place_x(X_LAST), place_y(X_LAST));
-}
-
-static void write_mark(FILE *out, int target, double x, double y)
-{
-	static const char *const shapes[] = {
-		"M%.1f %.1fm-5 -5h10v10h-10z", "M%.1f %.1fm0 -6l6 10h-12z",
-		"M%.1f %.1fm0 -6l6 6l-6 6l-6 -6z", "M%.1f %.1fm-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0",
-		"M%.1f %.1fm0 6l6 -10h-12z",
-	};
-	static const int kinds = (int)(sizeof shapes / sizeof *shapes);
-	fprintf(out, "<path class=\"t%d\" d=\"", target % kinds);
-	fprintf(out, shapes[target % kinds], x, y);
-	fprintf(out, "\"/>\n");
 }
 
 static void write_target(FILE *out, const Target *target, int t)
@@ -106,7 +117,7 @@ static void write_target(FILE *out, const Target *target, int t)
 			place_y(kernel_slots(t, EW_RING_MOMENTS_0 + n)));
 	fprintf(out, "\"/>\n");
 	for (int n = 0; n < DEGREES; ++n)
-		write_mark(out, t, place_x(target->kernels[DOUBLE][EW_RING_MOMENTS_0 + n].f),
+		svg_mark(out, t, place_x(target->kernels[DOUBLE][EW_RING_MOMENTS_0 + n].f),
 			place_y(kernel_slots(t, EW_RING_MOMENTS_0 + n)));
 }
 
@@ -115,12 +126,12 @@ static void write_legend(FILE *out, const Target *const *target, int targets)
 	const int x = LEFT + 24;
 	int y = TOP + 24;
 	for (int t = 0; t < targets; ++t, y += 22) {
-		write_mark(out, t, x, y);
-		write_text(out, "ink", x + 16, y + 4, "start", "%s, %d lane%s", target[t]->name,
+		svg_mark(out, t, x, y);
+		svg_text(out, "ink", x + 16, y + 4, "start", "%s, %d lane%s", target[t]->name,
 			target[t]->lanes[DOUBLE], target[t]->lanes[DOUBLE] == 1 ? "" : "s");
 	}
 	fprintf(out, "<path class=\"limit\" d=\"M%d %dh20\"/>\n", x - 10, y);
-	write_text(out, "ink", x + 16, y + 4, "start", "limit: slots = operations");
+	svg_text(out, "ink", x + 16, y + 4, "start", "limit: slots = operations");
 }
 
 int chart_write(const char *file)
@@ -130,17 +141,14 @@ int chart_write(const char *file)
 	FILE *out = fopen(file, "w");
 	if (!out)
 		return 0;
-	fprintf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" "
-		"height=\"%d\" role=\"img\">\n<title>%s</title>\n%s"
-		"<rect class=\"page\" width=\"%d\" height=\"%d\"/>\n", WIDE, HIGH, WIDE, HIGH,
-		TITLE, STYLE, WIDE, HIGH);
-	write_text(out, "ink title", LEFT, 28, "start", "%s", TITLE);
+	svg_page(out, WIDE, HIGH, TITLE);
+	svg_text(out, "ink title", LEFT, 28, "start", "%s", TITLE);
 	write_axes(out);
 	write_degrees(out, target[targets - 1]);
 	for (int t = 0; t < targets; ++t)
 		write_target(out, target[t], t);
 	write_legend(out, target, targets);
-	write_text(out, "soft", RIGHT, BOTTOM - 34, "end", "slot: one multiply-add on a vector of "
+	svg_text(out, "soft", RIGHT, BOTTOM - 34, "end", "slot: one multiply-add on a vector of "
 		"the target's width, at the rate measured beside it");
 	fprintf(out, "</svg>\n");
 	int good = !ferror(out);

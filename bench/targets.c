@@ -11,7 +11,7 @@
 #include "ex_kernels.h"
 #include "mx_kernels.h"
 
-enum { MOST_LANES = 16 };
+enum { MOST_LANES = 16, PARAMETERS = 4 };      /* of a window: u0, u1, v0, v1 */
 
 #define ROW(id, symbol, fma, add) { symbol, NULL, fma, add },
 #define ROWF(id, symbol, fma, add) { NULL, symbol, fma, add },
@@ -64,9 +64,9 @@ KernelJob kernel_job(const Target *target, int precision, int id)
 
 void kernel_run(const void *context, long repeat)
 {
-	static _Alignas(64) double x[ITEMS + 3], y[ITEMS + 3], cx[MOST_LANES];
+	static _Alignas(64) double x[ITEMS + 3], y[ITEMS + 3], origin[PARAMETERS * MOST_LANES];
 	static _Alignas(64) double sum[DEG12_MAX_ACCUMULATORS * MOST_LANES];
-	static _Alignas(64) float xf[ITEMS + 3], yf[ITEMS + 3], cxf[MOST_LANES];
+	static _Alignas(64) float xf[ITEMS + 3], yf[ITEMS + 3], originf[PARAMETERS * MOST_LANES];
 	static _Alignas(64) float sumf[DEG12_MAX_ACCUMULATORS * MOST_LANES];
 	static int ready;
 	const KernelJob *job = context;
@@ -79,7 +79,7 @@ void kernel_run(const void *context, long repeat)
 	}
 	while (repeat-- > 0)
 		if (job->kernel->run)
-			job->kernel->run(x, y, cx, 1, job->step, ITEMS, sum);
+			job->kernel->run(x, y, origin, 1, job->step, ITEMS, sum);
 		else
-			job->kernel->runf(xf, yf, cxf, 1, job->step, ITEMS, sumf);
+			job->kernel->runf(xf, yf, originf, 1, job->step, ITEMS, sumf);
 }

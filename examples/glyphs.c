@@ -25,6 +25,7 @@
 #include FT_OUTLINE_H
 
 #include "edgewise.h"
+#include "utf8.h"
 
 /* Coordinates are multiples of 1/2, so the area under a line is a multiple of 1/8, under a quad of
  * 1/24, under a cubic of 1/80, and all areas are multiples of this. */
@@ -177,24 +178,6 @@ static void load(const Font *font, FT_UInt glyph, Outline *outline)
 }
 
 /* ---- which glyphs ---- */
-
-/* Takes one character from UTF-8 text; -1 if it is none. */
-static long take_character(const char **text)
-{
-	static const long least[] = { 0, 0x80, 0x800, 0x10000 };
-	const unsigned lead = (unsigned char)*(*text)++;
-	const int more = lead < 0x80 ? 0 : lead < 0xe0 ? 1 : lead < 0xf0 ? 2 : 3;
-	if ((lead >= 0x80 && lead < 0xc0) || lead > 0xf7)
-		return -1;
-	long code = more ? (long)(lead & (0x3fu >> more)) : (long)lead;
-	for (int i = 0; i < more; i++, ++*text) {
-		if ((**text & 0xc0) != 0x80)
-			return -1;
-		code = code << 6 | (**text & 0x3f);
-	}
-	const bool surrogate = code >= 0xd800 && code < 0xe000;
-	return code < least[more] || code > 0x10ffff || surrogate ? -1 : code;
-}
 
 /* Writes at most strlen(text) glyphs; returns how many. */
 static size_t select_characters(const Font *font, const char *text, FT_UInt *glyphs)
