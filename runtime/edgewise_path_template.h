@@ -1,9 +1,9 @@
 /* edgewise_path_template.h - the reader of paths, for whoever takes their edges; included once per
  * reader and precision.
  *
- * EW_READ the name of the function; EW_READ_HAS(verb): is it one of ours; EW_READER the type of what
- * takes edges; EW_READ_EDGE(reader, verb, here, next, weight) takes one from `here` on with its
- * further points at `next`; EW_READ_CLOSING(reader, here, start) what closes a contour.
+ * EW_READ the name of the function; EW_READ_HAS(verb): is it one of ours; EW_READER the type of
+ * what takes edges; EW_READ_EDGE(reader, verb, here, next, weight) takes one from `here` on with
+ * its further points at `next`; EW_READ_CLOSING(reader, here, start) what closes a contour.
  *
  * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 

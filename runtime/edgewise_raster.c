@@ -13,9 +13,10 @@
  * the image: so reversed edges have the same points and shifted ones too, and nothing drifts.
  *
  * What is left or right of the image falls into a column beside it; of what is above all that
- * counts is how far it goes to the right, and it falls into a row before the first one. A difference
- * image that would not stay in the cache is made in bands of rows: edges are rounded first, listed
- * by the band where they begin, and what the rows of a band add to those below is carried on.
+ * counts is how far it goes to the right, and it falls into a row before the first one. Short edges
+ * are cut side by side where there are vectors, others alone. A difference image that would not
+ * stay in the cache is made in bands of rows: edges are rounded first and listed by the band where
+ * they begin, and what the rows of a band add to those below is carried on.
  *
  * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 #include "edgewise_runtime.h"
@@ -29,18 +30,19 @@
 enum {
 	EW_GRID = 22,                  /* bits of a pixel */
 	EW_ONE = 1 << EW_GRID,
-	EW_FURTHEST = 1 << 30,         /* coordinate */
 	EW_LARGEST = 1 << 28,          /* width or height */
 	EW_POINTS = 64,                /* vertices rounded at a time */
 	EW_LANES_OF_EDGES = 8,         /* at most: points behind them */
+	EW_AROUND = 48,                /* numbers to align a difference image, and behind it */
 	EW_SMALL = 8192,               /* numbers of a difference image on the stack */
 	EW_BAND = 1 << 16,             /* numbers of a difference image at a time */
-	EW_STRIP = 64,                 /* pixels of a row that are looked at or not */
-	EW_SHORT_EDGE = 11             /* dx + dy of edges that are cut side by side */
+	EW_STRIP = 64                  /* pixels of a row that are looked at or not */
 };
 
 #define EW_TO_GRID 0x1.8p30            /* sums with it are rounded to the grid */
-#define EW_PIXEL (1.0 / EW_ONE)
+#define EW_PIXEL 0x1p-22
+#define EW_FURTHEST 0x1p30             /* coordinate */
+#define EW_SHORT_EDGE 11.0             /* dx + dy of edges that are cut side by side */
 #define EW_FLATNESS 0x1p-8             /* how far lines are from their curve, in pixels */
 #define EW_FARTHEST_BEND 0x1p40        /* of a conic that is looked at */
 #define EW_RELATIVE 0x1p28             /* distances that are rounded by themselves */
@@ -81,6 +83,7 @@ typedef struct {
 	int width, height, size;       /* size: cells of the filter a side */
 	int columns, cells;            /* of the whole image; cells: rows of them */
 	int first, last, tall;         /* rows of cells of this band; behind them; of any band */
+	void *memory;                  /* NULL: none but the stack */
 	int32_t *sum;
 	size_t stride, above;          /* above: rows before those of the first pixels */
 	uint64_t *touched;             /* bits of blocks of pixels, for every row; NULL: all are */
@@ -101,7 +104,7 @@ typedef struct {
 	ew_raster_list list;
 	ew_raster_short edges;
 	ew_raster_pieces pieces;
-	EW_ALIGNED int32_t sum[EW_SMALL];
+	EW_ALIGNED int32_t sum[EW_SMALL + EW_AROUND];
 } ew_raster_scratch;
 
 typedef struct { float *floats; unsigned char *bytes; ptrdiff_t stride; } ew_raster_pixels;
@@ -199,7 +202,8 @@ EW_INLINE int64_t ew_raster_fixed(double v)
 	return ew_raster_bits(v + EW_TO_GRID) - ew_raster_bits(EW_TO_GRID);
 }
 
-/* An edge from left to right, turned over if it goes up; abscissas in units from the left column. */
+/* An edge from left to right, turned over if it goes up. from, to: its ends, in units from the
+ * column on the left. */
 typedef struct {
 	double x0, y0, x1, y1;         /* x0 < x1, y0 <= y1 */
 	double across, along;          /* dx / dy, dy / dx */
@@ -246,7 +250,8 @@ EW_INLINE void ew_raster_deposit(const ew_raster_image *image, const ew_raster_e
 	const int64_t nearer = (twice + EW_ONE - 1 + (twice >> (EW_GRID + 1) & 1))
 		>> (EW_GRID + 1);              /* to nearest, ties to even */
 	const int64_t sign = e->leftwards ? -1 : 1;
-	const int64_t upper = sign * (e->up ? total - nearer : nearer), lower = sign * total - upper;
+	const int64_t upper = sign * (e->up ? total - nearer : nearer);
+	const int64_t lower = sign * total - upper;
 	int32_t *below = to + image->stride;
 	for (int64_t i = 0; i < count; ++i) {
 		ew_raster_add(to + i, upper);
@@ -283,8 +288,8 @@ EW_INLINE void ew_raster_piece(const ew_raster_image *image, const ew_raster_edg
 
 /* The part of an edge in row j, turned over like the edge, between abscissas x0 and x1 and
  * ordinates v0 and v1 of the row. */
-EW_INLINE void ew_raster_row(const ew_raster_image *image, const ew_raster_edge *e, int j, int64_t x0,
-	int64_t x1, int64_t v0, int64_t v1, int plain)
+EW_INLINE void ew_raster_row(const ew_raster_image *image, const ew_raster_edge *e, int j,
+	int64_t x0, int64_t x1, int64_t v0, int64_t v1, int plain)
 {
 	const int64_t row = (e->up ? -1 - j : j) - image->first + 1, last = (x1 - 1) >> EW_GRID;
 	int64_t column = x0 >> EW_GRID, place = row * (int64_t)image->stride + column;
@@ -310,8 +315,8 @@ EW_INLINE void ew_raster_row(const ew_raster_image *image, const ew_raster_edge 
 	ew_raster_piece(image, e, place, x0 - column, x1 - column, v0, v1, plain);
 }
 
-/* The rows of an edge in this band; what is above the first one belongs to the row before it. Plain:
- * all of it is inside, and neither pieces nor bands need more. */
+/* The rows of an edge in this band; what is above the first one belongs to the row before it.
+ * Plain: all of it is inside, and neither pieces nor bands need more. */
 EW_INLINE void ew_raster_rows(const ew_raster_image *image, const ew_raster_edge *e, int plain)
 {
 	const int above = image->first == 0 ? -1 : image->first;
@@ -409,7 +414,7 @@ EW_ROUND(f, float)
 EW_INLINE unsigned char ew_raster_byte(int32_t sum)
 {
 	uint32_t size = sum < 0 ? 0 - (uint32_t)sum : (uint32_t)sum;
-	size = size > EW_ONE ? EW_ONE : size;
+	size = size > (uint32_t)EW_ONE ? (uint32_t)EW_ONE : size;
 	return (unsigned char)((size * 255 + EW_ONE / 2) >> EW_GRID);
 }
 
@@ -467,8 +472,8 @@ static int ew_raster_begin_general(ew_raster_image *image, const ew_filter *filt
 #endif
 }
 
-static void ew_raster_edges_general(const ew_raster_image *image, const double *px, const double *py,
-	const double *qx, const double *qy, size_t count, int clip)
+static void ew_raster_edges_general(const ew_raster_image *image, const double *px,
+	const double *py, const double *qx, const double *qy, size_t count, int clip)
 {
 	(void)clip;
 #ifdef EW_HAS_DOUBLE
@@ -532,8 +537,8 @@ static void ew_raster_shape(ew_raster_image *image, const ew_filter *filter, int
 	image->columns = width + image->size - 1;
 	image->cells = height + image->size - 1;
 	image->unit = filter ? (float)filter->unit : (float)EW_PIXEL;
-	/* room for whole vectors, and not a multiple of 4 KiB */
-	image->stride = ((size_t)image->columns + (size_t)image->size + 1 + 4 + 15) / 16 * 16;
+	/* pixels begin a cache line, but not all of them at a multiple of 4 KiB */
+	image->stride = ((size_t)image->columns + (size_t)image->size + 1 + 15) / 16 * 16;
 	image->stride += image->stride % 1024 ? 0 : 16;
 	ew_raster_axis_of(&image->x, filter && filter->size ? filter->first_x : -0.5,
 		image->columns);
@@ -545,6 +550,7 @@ static void ew_raster_shape(ew_raster_image *image, const ew_filter *filter, int
 	image->list = NULL;
 	image->pieces = NULL;
 	image->is_general = 0;
+	image->memory = NULL;
 	image->above = (size_t)image->size;
 	image->block = 0;
 	while ((width - 1) >> image->block >= 64)
@@ -552,10 +558,18 @@ static void ew_raster_shape(ew_raster_image *image, const ew_filter *filter, int
 	image->block = image->block < 6 ? 6 : image->block;
 }
 
-/* Numbers of the difference image. */
+/* Numbers of the difference image, and what it takes to align it and to add whole vectors. */
 static size_t ew_raster_numbers(const ew_raster_image *image)
 {
 	return ((size_t)image->tall + (size_t)image->size + 1) * image->stride;
+}
+/* So that the first pixel begins a cache line. */
+static void ew_raster_align(ew_raster_image *image, int32_t *scratch)
+{
+	const size_t off = (size_t)((uintptr_t)scratch / sizeof *scratch) % 16;
+	const size_t size = (size_t)image->size % 16;
+	image->sum = scratch + (32 - off - size) % 16;
+	memset(image->sum, 0, (ew_raster_numbers(image) + 16) * sizeof *image->sum);
 }
 
 static size_t ew_raster_bands(const ew_raster_image *image)
@@ -570,21 +584,21 @@ static int ew_raster_begin_bands(ew_raster_image *image, ew_raster_list *list, s
 	image->tall = tall > size ? (int)tall : image->size;
 	const size_t numbers = ew_raster_numbers(image), rows = (size_t)image->tall + size + 1;
 	const size_t bands = ew_raster_bands(image) + 1, room = points + EW_LANES_OF_EDGES;
-	if (numbers > INT32_MAX || room > INT32_MAX)
+	if (numbers > INT32_MAX - EW_AROUND || room > INT32_MAX)
 		return EW_NO_MEMORY;
-	char *all = (char *)EW_MALLOC(rows * sizeof(uint64_t) + 2 * room * sizeof(double)
-		+ (numbers + bands + room) * sizeof(int32_t));
+	char *const all = (char *)EW_MALLOC(rows * sizeof(uint64_t) + 2 * room * sizeof(double)
+		+ (numbers + EW_AROUND + bands + room) * sizeof(int32_t));
 	if (!all)
 		return EW_NO_MEMORY;
+	image->memory = all;
 	image->touched = (uint64_t *)(void *)all;
 	list->x = (double *)(void *)(image->touched + rows);
 	list->y = list->x + room;
-	image->sum = (int32_t *)(void *)(list->y + room);
-	list->band = image->sum + numbers;
+	list->band = (int32_t *)(void *)(list->y + room);
 	list->next = list->band + bands;
+	ew_raster_align(image, list->next + room);
 	list->count = 0;
 	memset(image->touched, 0, rows * sizeof(uint64_t));
-	memset(image->sum, 0, numbers * sizeof *image->sum);
 	image->list = list;
 	return EW_OK;
 }
@@ -622,22 +636,20 @@ static int ew_raster_begin(ew_raster_image *image, const ew_filter *filter, int 
 		ew_raster_begin_pieces(image, filter, &scratch->pieces);
 	if (numbers > EW_BAND)
 		return ew_raster_begin_bands(image, &scratch->list, points);
-	image->sum = numbers <= EW_SMALL ? scratch->sum
-		: (int32_t *)EW_MALLOC(numbers * sizeof *image->sum);
-	if (!image->sum)
+	if (numbers > EW_SMALL)
+		image->memory = EW_MALLOC((numbers + EW_AROUND) * sizeof *image->sum);
+	if (numbers > EW_SMALL && !image->memory)
 		return EW_NO_MEMORY;
-	memset(image->sum, 0, numbers * sizeof *image->sum);
+	ew_raster_align(image, numbers > EW_SMALL ? (int32_t *)image->memory : scratch->sum);
 	return EW_OK;
 }
 
-static void ew_raster_end(ew_raster_image *image, const ew_raster_scratch *scratch)
+static void ew_raster_end(ew_raster_image *image)
 {
 	if (image->is_general)
 		ew_raster_end_general(image);
-	else if (image->list)
-		EW_FREE(image->touched);
-	else if (image->sum != scratch->sum)
-		EW_FREE(image->sum);
+	else if (image->memory)
+		EW_FREE(image->memory);
 }
 
 static void ew_raster_sweep(const ew_raster_image *image, const ew_raster_pixels *to, int row,

@@ -18,7 +18,8 @@
 #define EW_FINE 0x1.8p8                /* a + EW_FINE - EW_FINE: a to a multiple of 2^-44 */
 #define EW_COARSE 0x1.8p24             /* of 2^-28 */
 
-int ew_raster_general_begin(ew_raster_general *image, const ew_filter *filter, int width, int height)
+int ew_raster_general_begin(ew_raster_general *image, const ew_filter *filter, int width,
+	int height)
 {
 	const size_t columns = (size_t)width, rows = (size_t)height;
 	if (columns > (size_t)PTRDIFF_MAX / sizeof(double) / rows)
@@ -60,13 +61,15 @@ static int ew_raster_general_index(double value, int low, int high)
 	return value <= low ? low : value >= high ? high : (int)value;
 }
 
-void ew_raster_general_edge(const ew_raster_general *image, double x0, double y0, double x1, double y1)
+void ew_raster_general_edge(const ew_raster_general *image, double x0, double y0, double x1,
+	double y1)
 {
 	const ew_filter *f = image->filter;
 	const double edge[4] = { x0, y0, x1, y1 };
 	const double left = x0 < x1 ? x0 : x1, right = x0 < x1 ? x1 : x0;
 	const double top = y0 < y1 ? y0 : y1, bottom = y0 < y1 ? y1 : y0;
-	/* pixels whose support [i + 1/2 + first, i + 1/2 + last] the edge may meet, one more each side */
+	/* pixels whose support, i + 1/2 + first .. i + 1/2 + last, the edge may meet, and one more
+	 * on each side */
 	const int i0 = ew_raster_general_index(floor(left - f->last_x) - 1, 0, image->width);
 	const int i1 = ew_raster_general_index(ceil(right - f->first_x) + 1, 0, image->width);
 	const int j0 = ew_raster_general_index(floor(top - f->last_y) - 1, 0, image->height);

@@ -1,8 +1,8 @@
 /* edgewise_raster_lanes.h - short edges cut into pieces four at a time, and pieces put into the
  * difference image, by AVX2; part of edgewise_raster.c.
  *
- * Each lane goes along an edge of its own, a cell per step, to where it leaves the cell; a lane that
- * has arrived stays and adds nothing. Edges that are long or partly out of the image are done
+ * Each lane goes along an edge of its own, a cell per step, to where it leaves the cell; a lane
+ * that has arrived stays and adds nothing. Edges that are long or partly out of the image are done
  * alone: both ways give the same bits.
  *
  * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
@@ -131,7 +131,9 @@ static const int32_t ew_raster_front_wide[16][8] = {
 	{ 4, 5, 6, 7, 0, 1, 0, 1 }, { 0, 1, 4, 5, 6, 7, 0, 1 },
 	{ 2, 3, 4, 5, 6, 7, 0, 1 }, { 0, 1, 2, 3, 4, 5, 6, 7 }
 };
-static const unsigned char ew_raster_number[16] = { 0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4 };
+static const unsigned char ew_raster_number[16] = {
+	0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4
+};
 
 /* Pieces that have a width wait. (u, v) of their ends in their cells, of turned over edges yet. */
 EW_ATTRIBUTE EW_INLINE void ew_raster_wait_lanes(const ew_raster_image *image, __m256i place,
@@ -248,9 +250,10 @@ EW_ATTRIBUTE static void ew_raster_scatter_avx2(const ew_raster_image *image)
 /* ---- edges ---- */
 
 /* All is relative to the left end, and abscissas have EW_TO_GRID added; an edge that goes up is
- * turned over. (right, below) are the lines of the grid ahead, (sx, sy) is where a piece starts, and
- * an edge crosses `right` if it would leave its row beyond it. */
-EW_ATTRIBUTE EW_INLINE void ew_raster_walk_lanes(const ew_raster_image *image, size_t start, int box)
+ * turned over. (right, below) are the lines of the grid ahead, (sx, sy) is where a piece starts,
+ * and an edge crosses `right` if it would leave its row beyond it. */
+EW_ATTRIBUTE EW_INLINE void ew_raster_walk_lanes(const ew_raster_image *image, size_t start,
+	int box)
 {
 	const EW_VECTOR one = EW_SPLAT(1.0), to_grid = EW_SPLAT(EW_TO_GRID), minus = EW_SPLAT(-0.0);
 	const EW_VECTOR stride = EW_SPLAT((double)image->stride);

@@ -211,6 +211,6 @@ int EW_NAME(raster_path)(const ew_filter *filter, const unsigned char *verbs, si
 		EW_RASTER(flush)(&c);
 	if (!c.code)
 		ew_raster_draw(&image, &to);
-	ew_raster_end(&image, &scratch);
+	ew_raster_end(&image);
 	return c.code;
 }

@@ -23,8 +23,8 @@
 	if ((k) * EW_GROUP_INTS < ints) \
 		EW_PUT_BYTES(to + (k) * 16, sum + (k) * EW_GROUP_INTS);
 
-/* 16, 32 or 64 columns of pixels; `count` less than 16: so many, written one row at a time. In bands
- * rows that nothing touched are those above, and sums are cleared for the next band. */
+/* 16, 32 or 64 columns of pixels; `count` less than 16: so many, written row by row. In bands, rows
+ * that nothing touched are those above, and sums are cleared for the next band. */
 #define EW_COLUMNS(stem, type, prepare, put) \
 EW_ATTRIBUTE EW_INLINE void EW_ISA(stem##_strip)(const ew_raster_image *image, int column, \
 	type *pixels, int columns, size_t count, int rows, ptrdiff_t stride, int banded) \

@@ -111,7 +111,8 @@ EW_INLINE void ew_raster_put_bytes_neon(unsigned char *to, const int32x4_t *sum)
 #define EW_WAYS(name, lanes, edges, sweep) \
 	static const ew_raster_ways ew_raster_ways_##name = { \
 		ew_raster_round_##lanes, ew_raster_roundf_##lanes, ew_raster_edges_##edges, \
-		ew_raster_finish_##lanes, ew_raster_scatter_##lanes, ew_raster_floats_##sweep, ew_raster_bytes_##sweep \
+		ew_raster_finish_##lanes, ew_raster_scatter_##lanes, \
+		ew_raster_floats_##sweep, ew_raster_bytes_##sweep \
 	};
 EW_WAYS(scalar, scalar, scalar, scalar)
 EW_WAYS(general, scalar, general, scalar)

@@ -9,7 +9,8 @@
 #define EW_RASTER(stem) EW_LOCAL(raster_##stem)
 
 /* A ring goes into the difference image, or to the list. */
-static int EW_RASTER(ring)(const ew_raster_image *image, const EW_REAL *x, const EW_REAL *y, size_t n)
+static int EW_RASTER(ring)(const ew_raster_image *image, const EW_REAL *x, const EW_REAL *y,
+	size_t n)
 {
 	ew_raster_list *list = image->list;
 	double own_x[EW_POINTS + 1 + EW_LANES_OF_EDGES], own_y[EW_POINTS + 1 + EW_LANES_OF_EDGES];
@@ -54,7 +55,8 @@ static int EW_RASTER(rings)(const ew_raster_image *image, const EW_REAL *x, cons
 	return EW_OK;
 }
 
-static int EW_RASTER(check)(const EW_REAL *x, const EW_REAL *y, const int32_t *offsets, size_t rings)
+static int EW_RASTER(check)(const EW_REAL *x, const EW_REAL *y, const int32_t *offsets,
+	size_t rings)
 {
 	if (rings == 0)
 		return EW_OK;
@@ -76,7 +78,7 @@ static int EW_RASTER(draw)(const ew_filter *filter, const EW_REAL *x, const EW_R
 	code = EW_RASTER(rings)(&image, x, y, offsets, rings);
 	if (!code)
 		ew_raster_draw(&image, to);
-	ew_raster_end(&image, &scratch);
+	ew_raster_end(&image);
 	return code;
 }
 

@@ -107,7 +107,8 @@ extern "C" {
 #endif
 
 #if defined(EW_HAS_FILTERS) && defined(EW_HAS_DOUBLE)
-int ew_raster_general_begin(ew_raster_general *image, const ew_filter *filter, int width, int height);
+int ew_raster_general_begin(ew_raster_general *image, const ew_filter *filter, int width,
+	int height);
 void ew_raster_general_edge(const ew_raster_general *image, double x0, double y0, double x1,
 	double y1);
 void ew_raster_general_end(ew_raster_general *image, float *pixels, ptrdiff_t row_stride);
