@@ -263,8 +263,12 @@ GEN_TESTS   := units constants filter_files
 RING_TESTS  := rings lanes central ring_contract long_rings kernels batches bounded compensated \
                distance closure
 CURVE_TESTS := curves conics paths
+WINDOW_TESTS := windows window_rings filters
+RASTER_TESTS := raster raster_bits raster_fuzz raster_contract raster_paths raster_memory
+CUSTOM_TESTS := filters raster_custom raster_memory
 PROGRAMS    := $(addprefix $(B)/tests/,$(GEN_TESTS) lines polynomials monomials shapes glyphs \
-               $(RING_TESTS) $(CURVE_TESTS))
+               $(RING_TESTS) $(CURVE_TESTS) $(WINDOW_TESTS) $(RASTER_TESTS)) \
+               $(CUSTOM_TESTS:%=$(B)/tests/custom/%)
 TEST_BUILD  = $(CC) -std=gnu11 -Wall -Wextra -ffp-contract=off $(SANITIZE) $(CFLAGS) -Itests
 
 # Expressions of the table in tests/polynomials.c.
@@ -279,6 +283,24 @@ $(B)/monomials.stamp: $(B)/gen
 		--targets portable --no-runtime --out $(B)/monomials
 	@touch $@
 
+# Filters of the tables in tests/filter_list.h, by the same sources as the built-in ones.
+FILTER_FILES := $(wildcard tests/filters/*.filter)
+
+$(B)/filters.stamp: $(B)/gen $(FILTER_FILES)
+	$(B)/gen --max-degree 1 --families moments,coverage $(FILTER_FILES:%=--filter %) \
+		--quiet --out $(B)/filters
+	@touch $@
+
+$(B)/filters/filters.a: $(B)/filters.stamp
+	@cd $(@D) && rm -f $(@F) *.o && for f in *.c; do \
+		$(COMPILE) -std=c99 -c -o "$${f%.c}.o" "$$f" || exit 1; done && ar rcs $(@F) *.o
+
+$(CUSTOM_TESTS:%=$(B)/tests/custom/%): $(B)/tests/custom/%: tests/%.c tests/reference.c \
+		tests/window_reference.c tests/raster_reference.c $(wildcard tests/*.h) \
+		$(B)/filters/filters.a | $(B)/tests
+	@mkdir -p $(@D)
+	$(TEST_BUILD) -DCUSTOM_FILTERS -I$(B)/filters -o $@ $(filter %.c %.a,$^) $(LDFLAGS) $(MATH)
+
 $(GEN_TESTS:%=$(B)/tests/%): $(B)/tests/%: tests/%.c tests/check.h \
 		$(filter-out %/main.o %/deliver.o %/bundle.o,$(GEN_OBJ)) \
 		$(B)/obj/embedded_filters.o | $(B)/tests
@@ -291,6 +313,10 @@ $(B)/tests/polynomials: tests/polynomials.c tests/reference.c $(B)/polynomials.s
 $(B)/tests/distance: tests/distance_reference.c
 
 $(CURVE_TESTS:%=$(B)/tests/%): tests/curve_reference.c
+
+$(WINDOW_TESTS:%=$(B)/tests/%): tests/window_reference.c tests/window_area.c
+
+$(RASTER_TESTS:%=$(B)/tests/%): tests/window_reference.c tests/raster_reference.c
 
 $(B)/tests/monomials: tests/monomials.c tests/reference.c $(B)/monomials.stamp | $(B)/tests
 	$(TEST_BUILD) -I$(B)/monomials -DMANIFEST='"$(B)/monomials/edgewise_manifest.json"' -o $@ \
@@ -307,7 +333,9 @@ test: $(PROGRAMS) $(B)/shapes $(B)/plot glyphs-if-freetype render-if-libraries
 		'readme: sh tests/readme.sh $(B)' \
 		'golden: sh tests/golden.sh $(B)' 'counts: sh tests/counts.sh $(B)' \
 		'lines: $(B)/tests/lines' \
-		$(foreach t,$(RING_TESTS) $(CURVE_TESTS),'$(t): $(B)/tests/$(t)') \
+		$(foreach t,$(RING_TESTS) $(CURVE_TESTS) $(WINDOW_TESTS) $(RASTER_TESTS), \
+			'$(t): $(B)/tests/$(t)') \
+		$(foreach t,$(CUSTOM_TESTS),'custom-$(t): $(B)/tests/custom/$(t)') \
 		'fuzz: sh tests/fuzz.sh $(B)' 'filter-fuzz: sh tests/filter_fuzz.sh $(B)' \
 		'polynomials: $(B)/tests/polynomials' 'monomials: $(B)/tests/monomials' \
 		'shapes: $(B)/shapes --exact examples/data/countries.txt | $(B)/tests/shapes' \

@@ -8,8 +8,10 @@
  *     integral of G du,   G_qs(u, v) = F_q(u, v + s + 1) - F_q(u, v + s),   s = N-1 .. -1,
  *
  * for pixel column cx - q and row cy - s; the image is the running sum down the columns. Output
- * r N + m, r < N, is that of q = N-1 - m, s = N-1 - r, by the Gauss-Legendre rule that is exact for the
- * degree; output N N + m is the total of the column, from which whoever adds gets the last row.
+ * r N + m is that of q = N-1 - m, s = N-1 - r, by the Gauss-Legendre rule that is exact for the degree,
+ * but for the middle row, N/2: there it is the total of the column, from which whoever adds takes the
+ * other rows. So rounding is left to a row that every piece reaches, while the first and the last one
+ * are exactly 0 for a piece along the lower, or the upper, edge of the cell.
  *
  * Below the piece all that counts is that total, P(u1) - P(u0) with P the primitive of F_q(u, above).
  * So that pixels that no edge crosses get exactly the filter's integral times the winding number,
@@ -243,7 +245,7 @@ static Poly half_of(Poly a, int var, int odd)
 static void values_at(Dag *dag, const Poly *poly, int count, int var, Ref w, Ref *value)
 {
 	Ref square = dag_mul(dag, w, w);
-	unsigned char done[DEPOSIT_SIZE] = { 0 };
+	unsigned char done[DEPOSIT_SIZE + 1] = { 0 };
 	for (int i = 0; i < count; ++i) {
 		if (done[i])
 			continue;
@@ -268,50 +270,58 @@ static void values_at(Dag *dag, const Poly *poly, int count, int var, Ref w, Ref
 	}
 }
 
-/* The factors of G_qs of a separable filter, for all q, and for all s >= 0. */
-static void add_separable(const Deposit *d, const Nodes *n, Ref rows[][DEPOSIT_SIZE])
+typedef Ref Rows[DEPOSIT_SIZE][DEPOSIT_SIZE + 1];       /* of columns q, in the order of rows */
+
+static int middle_row(const Deposit *d)
+{
+	return d->size / 2;
+}
+
+/* The factors of G_qs of a separable filter, for all q and rows. */
+static void add_separable(const Deposit *d, const Nodes *n, Rows rows)
 {
 	const Cells *c = &d->cells;
-	Poly across[DEPOSIT_SIZE], up[DEPOSIT_SIZE];
+	Poly across[DEPOSIT_SIZE], up[DEPOSIT_SIZE + 1];
 	for (int q = 0; q < d->size; ++q)
 		across[q] = centred(c->across[q], VAR_X);
-	for (int s = 0; s < d->size; ++s) {
+	for (int r = 0; r <= d->size; ++r) {
+		const int s = d->size - 1 - r;
 		Poly high = s + 1 < c->rows ? c->up[s + 1] : at_start(c->up[s], VAR_Y, rat(1, 1));
-		up[s] = centred(poly_sub(high, c->up[s]), VAR_Y);
+		up[r] = r == middle_row(d) ? poly_zero()
+			: centred(poly_sub(high, s < 0 ? poly_zero() : c->up[s]), VAR_Y);
 	}
 	for (int i = 0; i < n->nodes; ++i)
 		for (int k = 0; k < n->values[i]; ++k) {
-			Ref x[DEPOSIT_SIZE], y[DEPOSIT_SIZE];
+			Ref x[DEPOSIT_SIZE], y[DEPOSIT_SIZE + 1];
 			values_at(d->dag, across, d->size, VAR_X, n->at[i][k][0], x);
-			values_at(d->dag, up, d->size, VAR_Y, n->at[i][k][1], y);
+			values_at(d->dag, up, d->size + 1, VAR_Y, n->at[i][k][1], y);
 			for (int q = 0; q < d->size; ++q) {
 				if (x[q] == NONE)
 					continue;
 				Ref weighted = dag_mul(d->dag, n->weight[i], x[q]);
-				for (int s = 0; s < d->size; ++s)
-					if (y[s] != NONE)
-						rows[q][s] = dag_add(d->dag, rows[q][s],
-							dag_mul(d->dag, weighted, y[s]));
+				for (int r = 0; r <= d->size; ++r)
+					if (y[r] != NONE)
+						rows[q][r] = dag_add(d->dag, rows[q][r],
+							dag_mul(d->dag, weighted, y[r]));
 			}
 		}
 }
 
 /* G_qs itself. */
-static void add_bivariate(const Deposit *d, const Nodes *n, Ref rows[][DEPOSIT_SIZE])
+static void add_bivariate(const Deposit *d, const Nodes *n, Rows rows)
 {
-	for (int q = 0; q < d->size; ++q)
-		for (int s = 0; s < d->size; ++s) {
-			Poly g = poly_sub(below(&d->cells, q, s + 1), below(&d->cells, q, s));
-			g = centred(centred(g, VAR_X), VAR_Y);
-			for (int i = 0; i < n->nodes; ++i)
-				for (int k = 0; k < n->values[i]; ++k) {
-					Ref value = cell_value(d->dag, g, n->at[i][k][0],
-						n->at[i][k][1]);
-					if (value != NONE)
-						rows[q][s] = dag_add(d->dag, rows[q][s],
-							dag_mul(d->dag, n->weight[i], value));
-				}
-		}
+	for (int i = 0; i < d->size * (d->size + 1); ++i) {
+		const int q = i / (d->size + 1), r = i % (d->size + 1), s = d->size - 1 - r;
+		Poly g = poly_sub(below(&d->cells, q, s + 1), below(&d->cells, q, s));
+		g = centred(centred(g, VAR_X), VAR_Y);
+		for (int j = 0; j < n->nodes && r != middle_row(d); ++j)
+			for (int k = 0; k < n->values[j]; ++k) {
+				Ref value = cell_value(d->dag, g, n->at[j][k][0], n->at[j][k][1]);
+				if (value != NONE)
+					rows[q][r] = dag_add(d->dag, rows[q][r],
+						dag_mul(d->dag, n->weight[j], value));
+			}
+	}
 }
 
 Dag *deposit(const Filter *filter)
@@ -326,23 +336,19 @@ Dag *deposit(const Filter *filter)
 	d.unit = unit_of(&d.cells);
 	d.round = dag_const(dag, rat(3 << 22, 1));
 	const Nodes nodes = nodes_of(&d, most_nodes(&d.cells));
-	Ref out[DEPOSIT_SIZE + 1][DEPOSIT_SIZE], rows[DEPOSIT_SIZE][DEPOSIT_SIZE];
-	Ref zero = dag_const(dag, rat(0, 1));
-	for (int i = 0; i < DEPOSIT_SIZE * DEPOSIT_SIZE; ++i)
-		rows[i / DEPOSIT_SIZE][i % DEPOSIT_SIZE] = NONE;
+	Rows rows;
+	for (int q = 0; q < DEPOSIT_SIZE; ++q)
+		for (int r = 0; r <= DEPOSIT_SIZE; ++r)
+			rows[q][r] = NONE;
 	if (d.cells.separable)
 		add_separable(&d, &nodes, rows);
 	else
 		add_bivariate(&d, &nodes, rows);
-	for (int q = 0; q < d.size; ++q) {
-		const int m = d.size - 1 - q;
-		Ref total = column_total(&d, q, &before);
-		out[d.size][m] = total == NONE ? zero : total;
-		for (int s = 0; s < d.size; ++s)
-			out[d.size - 1 - s][m] = rows[q][s] == NONE ? zero : rows[q][s];
-	}
+	for (int q = 0; q < d.size; ++q)
+		rows[q][middle_row(&d)] = column_total(&d, q, &before);
+	Ref zero = dag_const(dag, rat(0, 1));
 	for (int r = 0; r <= d.size; ++r)
-		for (int m = 0; m < d.size; ++m)
-			dag_out(dag, out[r][m]);
+		for (int q = d.size - 1; q >= 0; --q)
+			dag_out(dag, rows[q][r] == NONE ? zero : rows[q][r]);
 	return dag;
 }

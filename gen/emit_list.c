@@ -196,9 +196,9 @@ static void add_deposits(Text *text, const Request *request, const Kernels *kern
 		return;
 	text_add(text, "\n/* Piece i of an edge within a cell of the pixel grid moved by the corner of a "
 		"filter, (x[i], y[i]) ->\n * (x[reach + i], y[reach + i]) relative to the cell, adds "
-		"out[(r N + m) reach + i] units to row r, column m of a\n * difference image, r < N, m < N, and "
-		"what is left of out[(N N + m) reach + i] to row N. That is an integer,\n * the rows are to "
-		"be rounded to integers first. Pieces up to a multiple of 16 are computed. */\n"
+		"out[(r N + m) reach + i] units to row r <= N, column\n * m < N of a difference image, to be "
+		"rounded to integers; but to row N/2 what is left of it, an integer, less the\n * other rows. "
+		"Pieces up to a multiple of 16 are computed. */\n"
 		"typedef void ew_deposit(const float *x, const float *y, size_t reach, size_t count, "
 		"float *out);\n"
 		"struct ew_filter {\n\tconst char *name;\n\tint size;        /* N, pixels per axis; 0: "

@@ -297,7 +297,7 @@ static void prove_deposit_at(const Number *value, const Dag *dag, const Filter *
 			moved_primitive(&cells, q, unit, p.x));
 		for (int row = 0; row <= size; ++row) {
 			const int output = row * size + size - 1 - q;
-			Residue want = row == size ? total
+			Residue want = row == size / 2 ? total
 				: row_value(filter, q, size - 1 - row, p, r, nodes);
 			Residue have = residue_multiply(value[dag->out[output]].residue,
 				residue_of(unit));

@@ -171,19 +171,19 @@ EW_INLINE int32_t ew_raster_integer(float value)
 static void ew_raster_scatter_scalar(const ew_raster_image *image)
 {
 	const ew_raster_pieces *p = image->pieces;
-	const size_t size = (size_t)image->size;
+	const size_t size = (size_t)image->size, middle = size / 2;
 	for (size_t i = 0; i < p->count; ++i)
 		for (size_t m = 0; m < size; ++m) {
 			int32_t *to = image->sum + p->place[i] + m;
 			const float *from = p->out + m * EW_PIECES + i;
-			int32_t rest = (int32_t)from[size * size * EW_PIECES];
-			for (size_t r = 0; r < size; ++r, to += image->stride) {
-				const int32_t value = ew_raster_integer(
-					from[r * size * EW_PIECES]);
-				ew_raster_add(to, value);
+			int32_t rest = (int32_t)from[middle * size * EW_PIECES];
+			for (size_t r = 0; r <= size; ++r) {
+				const int32_t value = r == middle ? 0
+					: ew_raster_integer(from[r * size * EW_PIECES]);
+				ew_raster_add(to + r * image->stride, value);
 				rest -= value;
 			}
-			ew_raster_add(to, rest);
+			ew_raster_add(to + middle * image->stride, rest);
 		}
 }
 

@@ -196,22 +196,25 @@ EW_ATTRIBUTE EW_INLINE void ew_raster_scatter_columns(const ew_raster_image *ima
 	enum { APART = 8 };
 	EW_ALIGNED int32_t turned[(EW_DEPOSIT_SIZE + 1) * EW_PIECES * 4];
 	const ew_raster_pieces *p = image->pieces;
-	const size_t wide = columns > 2 ? 4 : 2, reach = wide * EW_PIECES;
+	const size_t wide = columns > 2 ? 4 : 2, reach = wide * EW_PIECES, middle = size / 2;
 	for (size_t i = 0; i < p->count; i += 8) {
 		const float *from = p->out + m * EW_PIECES + i;
 		int32_t *to = turned + i * wide;
 		__m256i value[4], rest[4];
 		for (size_t c = 0; c < 4; ++c)
 			value[c] = rest[c] = c < columns ? _mm256_cvtps_epi32(_mm256_load_ps(from
-				+ (size * size + c) * EW_PIECES)) : _mm256_setzero_si256();
-		for (size_t r = 0; r < size; ++r, from += size * EW_PIECES, to += reach) {
+				+ (middle * size + c) * EW_PIECES)) : _mm256_setzero_si256();
+		for (size_t r = 0; r <= size; ++r) {
+			if (r == middle)
+				continue;
 			for (size_t c = 0; c < columns; ++c) {
-				value[c] = _mm256_cvtps_epi32(_mm256_load_ps(from + c * EW_PIECES));
+				value[c] = _mm256_cvtps_epi32(_mm256_load_ps(from
+					+ (r * size + c) * EW_PIECES));
 				rest[c] = _mm256_sub_epi32(rest[c], value[c]);
 			}
-			ew_raster_turn(value, columns, to);
+			ew_raster_turn(value, columns, to + r * reach);
 		}
-		ew_raster_turn(rest, columns, to);
+		ew_raster_turn(rest, columns, to + middle * reach);
 	}
 	for (size_t start = 0; start < APART; ++start)
 		for (size_t i = start; i < p->count; i += APART) {

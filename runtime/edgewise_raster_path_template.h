@@ -144,6 +144,8 @@ static void EW_RASTER(edge)(EW_RASTER(chain) *c, int verb, const EW_REAL *here, 
 {
 	const size_t points = ew_path_points(verb);
 	double p[4][2] = { { (double)here[0], (double)here[1] } };
+	if (c->code)                           /* the rest is checked for its form only */
+		return;
 	for (size_t i = 0; i < 2 * points; ++i)
 		p[1 + i / 2][i % 2] = (double)next[i];
 	EW_RASTER(from)(c, here);

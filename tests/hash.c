@@ -1,4 +1,5 @@
-/* hash.c - prints one hash of the bits of many results per target, and one for the single edges.
+/* hash.c - prints one hash of the bits of many results per target, one for the single edges, and
+ * one for images of the box, which are the same on every target, once per target.
  *
  * tests/matrix.sh compares them between compilers, language standards and levels of optimisation,
  * tests/cross.sh between machines and with tests/hashes.txt: a contracted a * b + c, a
@@ -19,7 +20,8 @@
 enum {
 	MOST = 2100, MOMENTS = EW_MOMENTS(EW_MAX_DEGREE), KINDS = 3,
 	FIRST = 3, GROWING = 31, MIXED = 24, LONG = 3, BATCH = GROWING + MIXED + LONG,
-	VERBS = 1500
+	VERBS = 1500,
+	WIDE = 61, HIGH = 37, SCENE = 40    /* an image, and the vertices it is drawn from */
 };
 
 static const size_t sizes[] = { 0, 2, 3, 4, 7, 8, 9, 16, 17, 23, 24, 40, 257, 1040, MOST };
@@ -206,6 +208,130 @@ static void add_kinds##f(size_t n) \
 KINDS_OF_EDGES(double, )
 KINDS_OF_EDGES(float, f)
 
+/* What windows and filters see of rings, where the ring is about as large as they are. */
+#define WINDOWS(REAL, f) \
+static void add_windows##f(size_t n) \
+{ \
+	const REAL *px = x##f, *py = y##f; \
+	REAL one; \
+	for (int k = 0; k < 4; k++) { \
+		const REAL at = (REAL)(k * 0.375 - 0.5); \
+		one = ew_coverage##f(px, py, n, at, at + (REAL)0.3, -at, (REAL)0.7); \
+		add##f(&one, 1); \
+		one = ew_box##f(px, py, n, at, (REAL)0.25); \
+		add##f(&one, 1); \
+		one = ew_tent##f(px, py, n, at, (REAL)0.1); \
+		add##f(&one, 1); \
+		one = ew_bspline2##f(px, py, n, at, at); \
+		add##f(&one, 1); \
+		one = ew_bspline3##f(px, py, n, at, -at); \
+		add##f(&one, 1); \
+		one = ew_catmull_rom##f(px, py, n, at, (REAL)-0.75); \
+		add##f(&one, 1); \
+		one = ew_mitchell##f(px, py, n, (REAL)0.5, at); \
+		add##f(&one, 1); \
+	} \
+}
+
+WINDOWS(double, )
+WINDOWS(float, f)
+
+/* ---- images ---- */
+
+static float pixels[WIDE * HIGH];
+static unsigned char bytes[WIDE * HIGH];
+static double shape_x[SCENE], shape_y[SCENE], shape_xy[2 * SCENE];
+static float shape_xf[SCENE], shape_yf[SCENE], shape_xyf[2 * SCENE];
+
+/* Three rings that overlap each other and leave the image; kind 2 on the grid of half pixels. The
+ * products are exact. */
+static void fill_shape(int kind)
+{
+	for (size_t i = 0; i < SCENE; i++) {
+		const double px = coordinate(kind), py = coordinate(kind);
+		shape_x[i] = kind == 1 ? px * 16 : px * (kind ? 4 : 32) + 30.5;
+		shape_y[i] = kind == 1 ? py * 8 : py * (kind ? 2 : 16) + 18;
+		shape_xf[i] = (float)shape_x[i];
+		shape_yf[i] = (float)shape_y[i];
+		shape_xy[2 * i] = shape_x[i];
+		shape_xy[2 * i + 1] = shape_y[i];
+		shape_xyf[2 * i] = shape_xf[i];
+		shape_xyf[2 * i + 1] = shape_yf[i];
+	}
+}
+
+#define IMAGES(REAL, f) \
+static void add_image##f(const ew_filter *filter) \
+{ \
+	static const int32_t rings[] = { 0, 5, 17, SCENE }; \
+	static const unsigned char outline[] = { EW_MOVE, EW_QUAD, EW_CUBIC, EW_CONIC, EW_LINE, \
+		EW_CLOSE }; \
+	static const REAL weight[] = { (REAL)0.7 }; \
+	for (int kind = 0; kind < KINDS; kind++) { \
+		fill_shape(kind); \
+		add_bits((uint64_t)ew_raster##f(filter, shape_x##f, shape_y##f, rings, 3, pixels, \
+			WIDE, HIGH, WIDE)); \
+		addf(pixels, WIDE * HIGH); \
+		add_bits((uint64_t)ew_raster_path##f(filter, outline, 6, shape_xy##f, 9, weight, \
+			1, pixels, WIDE, HIGH, WIDE)); \
+		addf(pixels, WIDE * HIGH); \
+	} \
+} \
+static void add_bytes##f(void) \
+{ \
+	static const int32_t rings[] = { 0, 5, 17, SCENE }; \
+	for (int kind = 0; kind < KINDS; kind++) { \
+		fill_shape(kind); \
+		add_bits((uint64_t)ew_raster_u8##f(shape_x##f, shape_y##f, rings, 3, bytes, WIDE, \
+			HIGH, WIDE)); \
+		for (size_t i = 0; i < WIDE * HIGH; i++) \
+			add_bits(bytes[i]); \
+	} \
+}
+
+IMAGES(double, )
+IMAGES(float, f)
+
+static void add_filtered(void)
+{
+	static const ew_filter *const filters[] = {
+		&ew_filter_tent, &ew_filter_bspline2, &ew_filter_bspline3, &ew_filter_catmull_rom,
+		&ew_filter_mitchell
+	};
+	for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
+		add_image(filters[i]);
+		add_imagef(filters[i]);
+	}
+}
+
+static void add_box(void)
+{
+	add_image(&ew_filter_box);
+	add_imagef(&ew_filter_box);
+	add_bytes();
+	add_bytesf();
+}
+
+/* The windows of an edge, and the filters centred at the next vertex. */
+#define EDGE_WINDOWS(REAL, f) \
+static void add_edge_windows##f(const REAL *px, const REAL *py) \
+{ \
+	REAL value[8]; \
+	value[0] = ew_below##f(px[0], py[0], px[1], py[1], (REAL)-0.5, (REAL)0.75, 0, 1); \
+	value[1] = ew_line_coverage##f(px[0], py[0], px[1], py[1], px[2], px[2] + 1, py[2], \
+		py[2] + 1); \
+	value[2] = ew_line_box##f(px[0], py[0], px[1], py[1], px[2], py[2]); \
+	value[3] = ew_line_tent##f(px[0], py[0], px[1], py[1], px[2], py[2]); \
+	value[4] = ew_line_bspline2##f(px[0], py[0], px[1], py[1], px[2], py[2]); \
+	value[5] = ew_line_bspline3##f(px[0], py[0], px[1], py[1], px[2], py[2]); \
+	value[6] = ew_line_catmull_rom##f(px[0], py[0], px[1], py[1], px[2], py[2]); \
+	value[7] = ew_line_mitchell##f(px[0], py[0], px[1], py[1], px[2], py[2]); \
+	add##f(value, 8); \
+}
+
+EDGE_WINDOWS(double, )
+EDGE_WINDOWS(float, f)
+
 static void add_edges(void)
 {
 	double value;
@@ -216,6 +342,10 @@ static void add_edges(void)
 		valuef = ew_cubic_areaf(xf[i], yf[i], xf[i + 1], yf[i + 1], xf[i + 2], yf[i + 2],
 			xf[i + 3], yf[i + 3]);
 		addf(&valuef, 1);
+	}
+	for (size_t i = 0; i + 2 < MOST; i++) {
+		add_edge_windows(x + i, y + i);
+		add_edge_windowsf(xf + i, yf + i);
 	}
 	for (size_t i = 0; i + 1 < MOST; i++) {
 #define EDGE(m, n, symbol, k) \
@@ -246,12 +376,21 @@ static void add_all(void)
 			add_ringsf(sizes[i]);
 			add_kinds(sizes[i]);
 			add_kindsf(sizes[i]);
+			add_windows(sizes[i]);
+			add_windowsf(sizes[i]);
 		}
 	for (int kind = 0; kind < KINDS; kind++) {
 		fill_batch(kind);
 		add_batches();
 		add_batchesf();
 	}
+	add_filtered();
+}
+
+static void start(void)
+{
+	hash = FNV_BASIS;
+	state = 1;
 }
 
 int main(void)
@@ -259,13 +398,14 @@ int main(void)
 	for (unsigned target = 1; target && target <= ew_targets(); target *= 2) {
 		if (ew_use_target(target) != EW_OK)
 			continue;
-		hash = FNV_BASIS;
-		state = 1;
+		start();
 		add_all();
 		print_hash(ew_target_name(target));
+		start();
+		add_box();
+		print_hash("box");
 	}
-	hash = FNV_BASIS;
-	state = 1;
+	start();
 	for (int kind = 0; kind < KINDS; kind++) {
 		fill(0, MOST, kind);
 		add_edges();
