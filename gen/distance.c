@@ -81,7 +81,7 @@ static Ref ratio(const Edge_values *e)
 {
 	Rat unit = e->is_float ? rat(1, 1 << 24) : rat(1, (Int)1 << 53);
 	Ref least = dag_scale(e->dag, unit, e->safe);
-	Ref gap = dag_node(e->dag, OP_MAX, least, dag_sub(e->dag, e->safe, e->d), NONE);
+	Ref gap = dag_node(e->dag, OP_MAX, dag_sub(e->dag, e->safe, e->d), least, NONE);
 	return dag_div(e->dag, dag_add(e->dag, e->safe, e->d), gap);
 }
 
@@ -141,7 +141,7 @@ static Dag *inverse_distance(const Edge_values *e)
 	Ref ahead = twice(dag, beta), behind = twice(dag, squared);
 	Ref gap = dag_sub(dag, e->one, e->t);
 	Ref low = dag_choose(dag, far, gap, dag_choose(dag, product, ahead, behind));
-	Ref z = dag_node(dag, OP_MAX, e->one, dag_div(dag, top, low), NONE);
+	Ref z = dag_node(dag, OP_MAX, dag_div(dag, top, low), e->one, NONE);
 	Logarithm log = logarithm(dag, e->is_float, z, e->tau);
 	Ref series = dag_add(dag, e->one, dag_mul(dag, e->tau, log.series));
 	Ref beyond = dag_div(dag, log.half, dag_choose(dag, log.k, e->t, e->one));

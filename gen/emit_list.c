@@ -190,6 +190,23 @@ static void add_filter_list(Text *text, const Request *request)
 	}
 }
 
+/* The deposits of one target, and their declarations. */
+static void add_deposits_of(Text *text, const Kernels *kernels, const Target *target)
+{
+	const char *name = emit_upper(target->name);
+	text_add(text, "\n/* X(filter, kernel, f, a): deposits, %s; per piece f on the FMA pipe, "
+		"a additions */\n#define EW_DEPOSITS_%s(X)", target->name, name);
+	for (int i = 0; i < kernels->deposits; ++i) {
+		const Deposited *d = &kernels->deposit[i];
+		const Count cost = target->fused ? d->fused.cost : d->portable.cost;
+		text_add(text, " \\\n\tX(ew_filter_%s, ew_deposit_%s_%s, %d, %d)", d->filter->name,
+			d->filter->name, target->name, cost.fma, cost.add);
+	}
+	text_add(text, "\n#if %s\n#define EW_DECLARE(filter, kernel, f, a) ew_deposit kernel;\n"
+		"EW_DEPOSITS_%s(EW_DECLARE)\n#undef EW_DECLARE\n#endif\n",
+		target->guard ? target->guard : "1", name);
+}
+
 static void add_deposits(Text *text, const Request *request, const Kernels *kernels)
 {
 	if (!request->filters)
@@ -206,17 +223,9 @@ static void add_deposits(Text *text, const Request *request, const Kernels *kern
 		"from the centre */\n\tdouble unit;     /* of the deposits */\n\tint ring;        /* its kernels over rings */\n"
 		"\tew_deposit *deposit[%d];     /* by target, lowest bit first; NULL: not built */\n};\n",
 		TARGETS);
-	for (int t = 0; t < target_count && kernels->deposits; ++t) {
-		if (!(request->targets & targets[t].bit))
-			continue;
-		text_add(text, "%s%s%s", targets[t].guard ? "#if " : "",
-			targets[t].guard ? targets[t].guard : "", targets[t].guard ? "\n" : "");
-		text_add(text, "ew_deposit");
-		for (int i = 0; i < kernels->deposits; ++i)
-			text_add(text, "%s ew_deposit_%s_%s", i ? i % 2 ? "," : ",\n\t" : "",
-				kernels->deposit[i].filter->name, targets[t].name);
-		text_add(text, targets[t].guard ? ";\n#endif\n" : ";\n");
-	}
+	for (int t = 0; t < target_count && kernels->deposits; ++t)
+		if (request->targets & targets[t].bit)
+			add_deposits_of(text, kernels, &targets[t]);
 }
 
 /* The targets that the compiler builds, and what finishes the moments of rings side by side. */
@@ -407,10 +416,29 @@ static void add_rings(Text *text, const Request *request, const Kernels *kernels
 	text_add(text, "\n ],\n");
 }
 
+static void add_deposited(Text *text, const Request *request, const Kernels *kernels)
+{
+	text_add(text, " \"deposits\": [");
+	for (int i = 0; i < kernels->deposits; ++i) {
+		const Deposited *d = &kernels->deposit[i];
+		text_add(text, "%s\n  {\"deposit\": \"deposit_%s\", \"filter\": \"%s\", "
+			"\"size\": %d, \"unit\": \"%s\", \"outputs\": %d", i ? "," : "",
+			d->filter->name, d->filter->name, deposit_size(d->filter),
+			rat_text(deposit_unit(d->filter)), d->fused.dag->outs);
+		add_count(text, "portable", &d->portable);
+		if (request->targets & TARGET_FMA)
+			add_count(text, "fma", &d->fused);
+		text_add(text, "}");
+	}
+	text_add(text, "\n ],\n");
+}
+
 void emit_manifest(Text *text, const Request *request, const Kernels *kernels)
 {
 	text_add(text, "{\"generator\": \"gen %s\",\n \"command\": %s,\n", GEN_VERSION,
 		quoted(request->command));
 	add_edges(text, kernels);
 	add_rings(text, request, kernels);
+	if (kernels->deposits)
+		add_deposited(text, request, kernels);
 }

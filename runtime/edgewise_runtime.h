@@ -96,11 +96,13 @@ typedef struct {
 #endif
 #endif
 
+#if defined(EW_MAX_CURVE_DEGREE) || defined(EW_HAS_FILTERS)
 /* Points that a verb of a path takes. */
 EW_INLINE size_t ew_path_points(int verb)
 {
 	return verb == EW_CLOSE ? 0 : verb <= EW_LINE ? 1 : verb == EW_CUBIC ? 3 : 2;
 }
+#endif
 
 #ifdef __cplusplus
 extern "C" {

@@ -214,6 +214,7 @@ precision() {
 	done
 	sort -u d.symbols f.symbols | cmp - both.symbols
 	comm -12 d.symbols f.symbols |
+		grep -vE '^ew_(deposit|filter)_' |
 		refute grep -vE '_finish(_[a-z0-9]+)?$|_k$|_divide_of$|target|^ew_version$'
 	refute grep -q '^float' d/edgewise.h
 	refute grep -q '^double' f/edgewise.h
@@ -313,25 +314,42 @@ check two_prefixes_in_one_program
 
 # ---- families and kinds of edges ----
 
-# FAMILIES EDGES PRECISIONS: the rows of prototypes.txt that belong to a request, as C.
+builtin='box tent bspline2 bspline3 catmull_rom mitchell'
+
+# FAMILIES EDGES PRECISIONS FILTERS: the rows of prototypes.txt that belong to a request, as C.
 prototypes() {
-	awk -v families=",always,$1," -v edges=",any,$2," -v precisions="$3" '
-		BEGIN { if (edges ~ /quad,conic,cubic/) edges = edges "all," }
+	awk -v families=",always,$1," -v edges=",any,$2," -v precisions="$3" -v filters="$4" '
+		BEGIN {
+			if (edges ~ /quad,conic,cubic/) edges = edges "all,"
+			count = split(filters, filter, " ")
+		}
+		function show(text, end) {
+			if (text !~ /REAL/) { print text; return }
+			if (precisions ~ /float/) {
+				match(text, /ew_[a-z0-9_]*[(]/)
+				end = RSTART + RLENGTH - 1
+				twin = substr(text, 1, end - 1) "f" substr(text, end)
+				gsub(/REAL/, "float", twin)
+				print twin
+			}
+			gsub(/REAL/, "double", text)
+			if (precisions ~ /double/) print text
+		}
 		/^#/ || !index(families, "," $1 ",") || !index(edges, "," $2 ",") { next }
 		{ sub(/^[^ ]* [^ ]* /, "") }
-		!/REAL/ { print; next }
-		precisions ~ /double/ { text = $0; gsub(/REAL/, "double", text); print text }
-		precisions ~ /float/ {
-			gsub(/REAL/, "float")
-			match($0, /ew_[a-z_]*[(]/)
-			end = RSTART + RLENGTH - 1
-			print substr($0, 1, end - 1) "f" substr($0, end)
+		!/NAME/ { show($0); next }
+		{
+			for (i = 1; i <= count; i++) {
+				text = $0
+				gsub(/NAME/, filter[i], text)
+				show(text)
+			}
 		}' "$tests/prototypes.txt"
 }
 
-# names of the functions of the library in C that comes in
+# names of the functions of the library, and of its filters, in C that comes in
 functions() {
-	grep -oE '[^a-z0-9_]ew_[a-z0-9_]+\(' | tr -dc 'a-z0-9_\n' | sort
+	grep -oE '[^a-z0-9_]ew_([a-z0-9_]+\(|filter_[a-z0-9_]+;)' | tr -dc 'a-z0-9_\n' | sort
 }
 
 # HEADER: what it declares
@@ -341,14 +359,14 @@ declared() {
 }
 
 # FAMILIES EDGES PRECISIONS DEGREE OPTION...: header and objects have the functions of this request
-# and no other, with the parameters that prototypes.txt says.
+# and no other, with the parameters that prototypes.txt says. $filters are those of the request.
 interface() {
 	families=$1 edges=$2 precisions=$3 degree=$4
 	shift 4
 	rm -rf d
 	[ "$degree" -le 0 ] || families="$families,moments>0"
 	gen "$@" --precision "$precisions" --targets portable --quiet --out d
-	prototypes "$families" "$edges" "$precisions" >prototypes
+	prototypes "$families" "$edges" "$precisions" "$filters" >prototypes
 	functions <prototypes >wanted
 	declared d/edgewise.h | grep -vE '^ew_line_x[0-9]' | diff wanted -
 	[ "$(declared d/edgewise.h | grep -E '^ew_line_x[0-9]' | tr -d f | sort -u | wc -l)" -eq \
@@ -365,7 +383,8 @@ interface() {
 
 families_have_their_functions() {
 	both=double,float
-	all=moments,curves,distance,closure
+	all=moments,curves,distance,closure,coverage,filters
+	filters=$builtin
 	interface $all line,quad,conic,cubic $both 1 --max-degree 1
 	interface moments line double 2 --families moments --max-degree 2
 	interface moments,curves line,quad,conic,cubic double 0 --families curves --max-degree 0
@@ -373,15 +392,24 @@ families_have_their_functions() {
 	interface distance line $both -1 --families distance
 	interface closure line $both -1 --families closure
 	interface distance,closure line float -1 --families closure,distance
+	interface coverage line $both -1 --families coverage
+	interface filters line $both -1 --families filters
+	interface coverage,filters line double -1 --families filters,coverage
+	filters='tent mitchell'
+	interface filters line float -1 --filter tent --filter mitchell
+	interface coverage,filters line double -1 --families coverage --filter tent \
+		--filter mitchell
 }
 check families_have_their_functions
 
 edges_have_their_functions() {
-	all=moments,curves,distance,closure
+	all=moments,curves,distance,closure,coverage,filters
+	filters=$builtin
 	interface $all line,quad double 2 --edges quad --max-degree 2
 	interface $all line,quad,cubic float 2 --edges cubic,quad --max-degree 2
 	interface moments,curves line,conic double 1 --families curves --edges conic --max-degree 1
-	interface moments,distance,closure line double 0 --edges line --max-degree 0
+	interface moments,distance,closure,coverage,filters line double 0 --edges line \
+		--max-degree 0
 }
 check edges_have_their_functions
 
@@ -392,6 +420,8 @@ family_program() {
 	curves)   call='ew_quad_area(1, 0, 1, 1, 0, 1) == 5 / 6.0' ;;
 	distance) call='ew_line_distance(3, 4, 6, 8) == 0' ;;
 	closure)  call='ew_line_closure(1, 2, 3, 4, 0, 0) == -10' ;;
+	coverage) call='ew_below(0, 0, 1, 1, 0, 1, 0, 1) == 0.5' ;;
+	filters)  call='ew_line_box(0.5, 0.25, -0.5, 0.25, 0, 0) == 0.75' ;;
 	esac
 	printf '#include "ew.h"\nint main(void) { return !(%s); }\n' "$call"
 }
@@ -418,7 +448,9 @@ moments_alone() { family_alone moments 1; }
 curves_alone() { family_alone curves 1; }
 distance_alone() { family_alone distance; }
 closure_alone() { family_alone closure; }
-for family in moments curves distance closure; do
+coverage_alone() { family_alone coverage; }
+filters_alone() { family_alone filters; }
+for family in moments curves distance closure coverage filters; do
 	check ${family}_alone
 done
 
@@ -440,6 +472,30 @@ edges_in_a_single_header() {
 	family_with $CC -std=c99
 }
 check edges_in_a_single_header
+
+# A filter of the user's, under a prefix: its functions and its name are emitted as those of the
+# built-in ones are. Over the whole plane a hat of height 1 and width 2 has 1 on each axis.
+custom_filter() {
+	printf 'filter hat\nseparable even\npiece 0 1 : 1 - x\n' >my.filter
+	gen --filter my.filter --filter tent --prefix foo --targets portable,fma --out d
+	cat >main.c <<-END
+		#include "foo.h"
+		int main(void)
+		{
+			static const double x[] = { -3, 2, 2, -3 }, y[] = { -3, -3, 0, 0 };
+			static const float xf[] = { -3, 2, 2, -3 }, yf[] = { -3, -3, 0, 0 };
+			const foo_filter *filters[] = { &foo_filter_hat, &foo_filter_tent };
+			return !(foo_hat(x, y, 4, 0, 0) == 0.5 && foo_hatf(xf, yf, 4, 0, 0) == 0.5f
+				&& foo_line_hat(1, 0.5, -2, 0.25, 0, 0)
+				== foo_line_tent(1, 0.5, -2, 0.25, 0, 0)
+				&& filters[0] != filters[1]);
+		}
+	END
+	run_with d
+	grep -rnE '(^|[^A-Za-z0-9_])(ew|EW)(_|[^A-Za-z0-9]|$)' d | refute grep .
+	symbols alone | grep -qx foo_deposit_hat_portable
+}
+check custom_filter
 
 # DEGREES CURVES OPTION...: what the header promises
 promises() {
@@ -637,6 +693,9 @@ manifest() {
 	done
 	for file in d/*.[ch]; do
 		grep -q "\"${file#d/}\", \"bytes\": $(($(wc -c <"$file")))," m.json
+	done
+	for filter in box mitchell; do
+		grep -q "{\"deposit\": \"deposit_$filter\", \"filter\": \"$filter\"" m.json
 	done
 	gen --single-header s.h --manifest s.json
 	valid_json s.json

@@ -146,7 +146,7 @@ expect_error '--edges with unknown word' 2 "unknown word 'arc'; known: line, qua
 	--edges line,arc
 expect_error '--edges with trailing comma' 2 "''" --edges quad,
 expect_error '--edges in upper case' 2 "'Quad'" --edges Quad
-for family in distance closure distance,closure; do
+for family in distance closure distance,closure coverage filters,coverage; do
 	expect_error "--max-degree of $family" 2 '--max-degree goes with the families moments' \
 		--max-degree 2 --families $family
 done
@@ -195,7 +195,8 @@ for name in math stdlib string; do
 done
 for name in area areaf line_x x1y0 x1y0f moments moments_about centroid version use_target \
 	ring_x quad_x conic_area cubic_x4y2 path_moments radius radius_1 distance distancef closure \
-	is_closed is_closedf; do
+	is_closed is_closedf below line_coverage coverage coveragef raster raster_u8 raster_pathf \
+	filter_box deposit_tent; do
 	expect_error "--polynomial $name, a library function" 2 "'$name'" --polynomial "$name=x"
 done
 expect_error '--polynomial without a name' 2 "''" --polynomial =x
@@ -334,10 +335,13 @@ small_disk() {
 	small=$work/small
 	unchanged "$small" status 1 gen --max-degree 4 --out "$small/d" 2>message
 	grep -q '^gen: .*No space left' message
-	gen --max-degree 0 --precision double --targets portable --out "$small/d"
+	request='--max-degree 0 --families moments --precision double --targets portable'
+	# shellcheck disable=SC2086
+	gen $request --out "$small/d"
 	unchanged "$small" status 1 gen --max-degree 4 --out "$small/d" 2>message
 	grep -q '^gen: .*No space left' message
-	gen --max-degree 0 --precision double --targets portable --out "$small/d" --check
+	# shellcheck disable=SC2086
+	gen $request --out "$small/d" --check
 	unchanged "$small" status 1 gen --single-header "$small/s.h" 2>message
 	gen --max-degree 3 --out d
 	cp -R d kept

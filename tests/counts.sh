@@ -6,13 +6,14 @@
 # Multiplications, fused operations and additions in every single-edge function and in every loop
 # of every ring kernel, against the comment above it, the manifest and the list in
 # edgewise_kernels.h. A loop says in its header how many items it takes at a time: a kernel has up
-# to three (vectors shifted into place, whole vectors, the rest; of curves just one), and the vertex form and the stored
-# shape take two items at a time; an item that batches use alone is a function. Moments on targets
-# with FMA are also held against the promised bars. Scalar targets spell operations as C operators,
-# vector targets as intrinsics. Loads, stores and loop headers are not operations, nor is the sign
-# inside a constant or before an operand. An absolute value costs nothing; there must be as many of
-# them as in the kernel of target fma. What ew_ring_lost takes is counted in the list, where it
-# stands.
+# to three (vectors shifted into place, whole vectors, the rest; of curves and filters just one),
+# and the vertex form and the stored shape take two items at a time; an item that batches use alone
+# is a function. Deposits have one loop over pieces. Moments on targets with FMA are also held
+# against the promised bars. Scalar targets spell operations as C operators, vector targets as
+# intrinsics. Loads, stores and loop headers are not operations, nor is the sign inside a constant
+# or before an operand. A minimum, a maximum or a choice costs an addition, rounding to a multiple
+# two. An absolute value costs nothing; there must be as many of them as in the kernel of target
+# fma. What ew_ring_lost takes is counted in the list, where it stands.
 set -u
 build=${1:-build}
 . "$(dirname "$0")/verdict.sh"
@@ -60,7 +61,7 @@ function pipes() { return mul + fma " and " add }
 function count_scalar(text) {
 	lost = gsub(/ew_ring_lostf?\(/, "(", text)
 	fma += gsub(/fmaf?\(/, "(", text)
-	add += gsub(/ew_ring_(max|choose|exponent|fraction)f?\(/, "(", text)
+	add += gsub(/ew_ring_(max|min|choose|exponent|fraction)f?\(/, "(", text)
 	divide += gsub(/sqrtf?\(/, "(", text) + gsub(/\//, ",", text)
 	absolute += gsub(/fabsf?\(/, "(", text)
 	mul += gsub(/\*/, ",", text) + lost * lost_mul
@@ -70,11 +71,11 @@ function count_scalar(text) {
 function count_vector(text) {
 	absolute += gsub(/EW_ABS_mm|vabsq_f/, "(", text)
 	divide += gsub(/_div_p|EW_SQRT_mm|v(div|sqrt)q_/, "(", text)
-	add += gsub(/EW_(MAX|CHOOSE|EXPONENT|FRACTION)_|_max_p/, "(", text)
+	add += gsub(/EW_(MAX|MIN|CHOOSE|EXPONENT|FRACTION)_/, "(", text)
 	fma += gsub(/_fn?m(add|sub)_p|vfm[as]q_f/, "(", text)
 	mul += gsub(/_mul_p|vmulq_/, "(", text)
 	add += gsub(/_(add|sub)_p|v(add|sub)q_/, "(", text)
-	stray += gsub(/[]A-Za-z0-9_)] [-+*\/] |_min_|v(max|min)q/, "(", text)
+	stray += gsub(/[]A-Za-z0-9_)] [-+*\/] |_(min|max)_|v(max|min)q/, "(", text)
 }
 
 function count(body, vector) {
@@ -83,20 +84,23 @@ function count(body, vector) {
 	gsub(/0x[0-9a-f.]+p[-+][0-9]+f?/, "1", body)
 	gsub(/return/, "=", body)
 	gsub(/if \([^)]*\) [{]/, "", body)
+	gsub(/out\[[^]]*\]/, "out", body)
 	statements = split(body, statement, ";")
 	for (at = 1; at <= statements; at++) {
 		if (vector && statement[at] !~ /loadu|storeu|vld1q|vst1q|pad|size_t|mask|EW_HIDE/)
 			count_vector(statement[at])
-		else if (!vector && statement[at] !~ / = [xy]\[i/)
+		else if (!vector && statement[at] !~ / = ([xy]\[i|\*\([xy] )/)
 			count_scalar(statement[at])
 	}
 }
 
-# One loop, which takes `items` at a time.
+# One loop of a ring or deposit, which takes `items` at a time.
 function check_loop(kernel, ring, target) {
 	vector = target !~ /portable|fma/
 	count(body, vector)
 	where = kernel ", loop " ++loops
+	if (!(ring in rings))
+		fail(where, "not in the manifest")
 	if (stray || mul % items || fma % items || add % items || divide % items || absolute % items)
 		fail(where, mul " mul " fma " fma " add " add " absolute " absolute " stray \
 			" stray in " items " items")
@@ -116,7 +120,8 @@ function check_loop(kernel, ring, target) {
 
 # Each kernel must have been through its loops: one, or whole vectors and the rest.
 function close_kernel() {
-	if (kernel && loops < (kernel ~ /_(portable|fma)$|_(quad|conic|cubic)_/ ? 1 : 2))
+	if (kernel && loops < (kernel ~ /_(portable|fma)$|_(quad|conic|cubic|deposit)_/ ||
+	    rings[ring] ~ /"family": "filter"/ ? 1 : 2))
 		fail(kernel, loops " loops found")
 	kernel = ""
 	kernels++
@@ -157,12 +162,17 @@ function close_file() {
 	rings[substr($0, RSTART + 9, RLENGTH - 9)] = $0
 	expected += 10
 }
+/"deposit": / {
+	match($0, /"deposit": "[^"]*/)
+	rings[substr($0, RSTART + 12, RLENGTH - 12)] = $0
+	expected += 5
+}
 /"function": / {
 	match($0, /ew_(line|quad|cubic)_[^"]*/)
 	edges[substr($0, RSTART, RLENGTH)] = $0
 	expected += 2
 }
-/X\(EW_RING_[A-Z0-9_]*, ew_ring_[a-z0-9_]*, [0-9]+, [0-9]+\)/ {
+/X\((EW_RING|ew_filter)_[A-Za-z0-9_]*, ew_(ring|deposit)_[a-z0-9_]*, [0-9]+, [0-9]+\)/ {
 	split($0, part, /[,()] */)
 	listed[part[3]] = part[4] " and " part[5]
 }
@@ -172,16 +182,16 @@ FNR == 1 {
 	sub(/.*\//, "", file)
 	is_float = file ~ /(linef|f_(portable|fma|avx2|avx512|neon))[0-9_]*\.c$/
 }
-/^ \* Cost( per item)?: / {
+/^ \* Cost( per item| per piece)?: / {
 	split($0, part, /(: | mul| or fma|, | add)+/)
 	comment = part[2] " and " part[3] " and " ($0 ~ / div or sqrt/ ? part[4] + 0 : 0)
 }
-/void ew_ring_[a-z0-9_]*\($/ {
-	match($0, /ew_ring_[a-z0-9_]+/)
+/void ew_ring_[a-z0-9_]*\($|void ew_deposit_[a-z0-9_]*\(/ {
+	match($0, /ew_(ring|deposit)_[a-z0-9_]+/)
 	kernel = substr($0, RSTART, RLENGTH)
 	ring = target = kernel
 	sub(/.*_/, "", target)
-	gsub(/^ew_ring_|_[a-z0-9]*$/, "", ring)
+	gsub(/^ew_(ring_)?|_[a-z0-9]*$/, "", ring)
 	if (is_float)
 		sub(/f$/, "", ring)
 	loops = 0
@@ -206,10 +216,13 @@ FNR == 1 {
 	width = $0
 	gsub(/.* pass \+= |\).*/, "", width)
 }
-/^\t\t+for \(.*; i \+= .*\) [{]$/ {
+/^\t+for \(.*; i \+= .*\) [{]$/ {
 	items = $0
 	gsub(/.* i \+= |\) [{]$/, "", items)
-	items = items == "step" ? 1 : items == "2 * step" ? 2 : items / width
+	if (items == "step" || kernel ~ /^ew_deposit/)
+		items = 1
+	else
+		items = items == "2 * step" ? 2 : items / width
 	end = $0
 	sub(/for.*/, "}", end)
 	inside = 1
@@ -240,14 +253,14 @@ inside == 4 && /^}/ {
 	check_item(item, ring)
 	inside = 0
 }
-/^}/ && file && kernel ~ /^ew_ring/ { close_kernel() }
+/^}/ && file && kernel ~ /^ew_(ring|deposit)/ { close_kernel() }
 inside { body = body $0 }
 
 END {
 	close_file()
 	if (seen != expected || seen == 0)
 		fail("all kernels", seen " found, the manifest has " expected \
-			" in two precisions and five targets")
+			" in two precisions and five targets, deposits in one")
 	print passed + 0 " passed, " failed + 0 " failed"
 	exit failed > 0
 }
@@ -258,7 +271,7 @@ counts() {
 	folder=$1
 	set -- "$folder"/edgewise_line*.c
 	for target in portable fma avx2 avx512 neon; do
-		for group in moments curves distance trust integrands; do
+		for group in moments curves distance coverage filters deposit trust integrands; do
 			set -- "$@" "$folder/edgewise_$group"*"_$target"*.c
 		done
 	done
@@ -289,4 +302,10 @@ notices ew_ring_moments_1_item_avx2 edgewise_items_avx2.h \
 	'1,/add_pd(x0/s/_mm256_add_pd(x0, x1)/x0/'
 notices ew_ring_magnitudes_0f_avx2 edgewise_trustf_avx2.c \
 	'1,/EW_ABS/s/EW_ABS_mm256_ps(\([a-z0-9]*\))/\1/'
+notices ew_ring_coveragef_neon edgewise_coveragef_neon.c \
+	'1,/EW_MIN/s/EW_MIN_f32(t1, u1)/t1/'
+notices ew_ring_mitchell_avx2 edgewise_filters_avx2_2.c \
+	'/ring_mitchell_avx2(/,/_max_\|EW_MAX/s/EW_MAX_mm256_pd(\([a-z0-9]*\), .*)/\1/'
+notices ew_deposit_tent_portable edgewise_deposit_portable.c \
+	'/deposit_tent_portable/,/12582912/s/(\(t[0-9]*\) + 12582912.0f) - 12582912.0f/\1/'
 counts "$build/emitted"

@@ -48,6 +48,8 @@ sections quad1.dump '^quad_1:' -d pdfs --max-degree 1 --families curves --edges 
 sections cubic_x1y1.dump '^cubic_x1y1:' -d d --monomial x1y1 --edges cubic
 sections distance.dump '^radius_1:' -d f --families distance
 sections closure.dump '^closure:' -d pdfs --families closure
+sections coverage.dump '^coverage:' -d f --families coverage
+sections deposit_tent.dump '^deposit_tent:' -d d --filter tent
 for format in text latex json c; do
 	prints x4y2.$format --show x4y2 --format $format
 done
@@ -56,5 +58,11 @@ done
 for file in edgewise_line.c edgewise_moments_fma.c; do
 	cp "$work/degree1/$file" "$work/degree1_$file"
 	check degree1_$file
+done
+"$build/gen" --quiet --filter box --targets avx2 --no-runtime --out "$work/box" ||
+	echo "gen failed" >&2
+for file in edgewise_deposit_avx2.c edgewise_filters.c; do
+	cp "$work/box/$file" "$work/box_$file"
+	check box_$file
 done
 finish

@@ -8,8 +8,14 @@
  * do not begin at 0. Every array touches an inaccessible page, at its front or at its back; then
  * all are moved to every alignment. NaN or infinity in one vertex, origin or sum must stay in the
  * sums where the definition has either; a vector may add 0 times infinity in lanes that have run
- * out of items, so which of the two is not compared. Finish kernels are held against the scalar
- * one, lane by lane.
+ * out of items, so which of the two is not compared. Origins are the constants of the lanes, in
+ * several places: four for coverage, the sides of a cell, some of them empty. Finish kernels are
+ * held against the scalar one, lane by lane.
+ *
+ * Deposits must give for each piece what the scalar one gives for it alone, touch nothing beyond
+ * the pieces rounded up to 16, and negate under reversal; rows add up to the filter's integral over
+ * the region that the piece bounds, taken by ew_NAME, and totals of columns are integers that add
+ * up exactly along an edge.
  *
  * A crash is charged to the kernel that caused it, and the next one runs.
  */
@@ -25,6 +31,8 @@
 enum { DOUBLES = 8, FLOATS = 16, VECTORS = 5 };
 enum { ITEMS = VECTORS * FLOATS * 2 + 2, VERTICES = ITEMS + 2 * FLOATS + 2 };
 enum { CELLS = EW_MAX_ACCUMULATORS * FLOATS };
+enum { CELL_SIDES = 4, ORIGINS = CELL_SIDES * FLOATS };
+enum { TAKEN = 16, PIECES = 3 * TAKEN, MOST_PIXELS = 8, OUTPUTS = MOST_PIXELS * (MOST_PIXELS + 1) };
 enum { SHIFTS = 64, CANARY = 0x88, NOT_A_NUMBER = 0xff };
 
 /* The list. */
@@ -43,27 +51,38 @@ typedef struct {
 } Finish;
 
 typedef struct {
+	const char *name;
+	const ew_filter *filter;
+	ew_deposit *deposit;
+} Deposit;
+
+typedef struct {
 	unsigned bit;
 	size_t doubles;                 /* in a register; 1 for scalars */
 	const Kernel *kernels;
 	size_t count;
 	const Finish *finishes;
 	size_t finish_count;
+	const Deposit *deposits;
+	size_t deposit_count;
 } Target;
 
 #define KERNEL_DOUBLE(id, kernel, f, a) { #kernel, id, kernel, NULL },
 #define KERNEL_FLOAT(id, kernel, f, a) { #kernel, id, NULL, kernel },
 #define FINISH(id, finish) { #finish, id, finish },
+#define DEPOSIT(filter, deposit, f, a) { #deposit, &filter, deposit },
 #define TABLES(TARGET, target, doubles) \
 	static const Kernel kernels_##target[] = { \
 		EW_RINGS_##TARGET##_DOUBLE(KERNEL_DOUBLE) EW_RINGS_##TARGET##_FLOAT(KERNEL_FLOAT) \
 	}; \
-	static const Finish finishes_##target[] = { EW_FINISHES_##TARGET(FINISH) };
+	static const Finish finishes_##target[] = { EW_FINISHES_##TARGET(FINISH) }; \
+	static const Deposit deposits_##target[] = { EW_DEPOSITS_##TARGET(DEPOSIT) };
 EW_TARGETS(TABLES)
 
 #define COUNT(table) (sizeof(table) / sizeof *(table))
 #define TARGET_ROW(TARGET, target, doubles) { EW_##TARGET, doubles, \
-	kernels_##target, COUNT(kernels_##target), finishes_##target, COUNT(finishes_##target) },
+	kernels_##target, COUNT(kernels_##target), finishes_##target, COUNT(finishes_##target), \
+	deposits_##target, COUNT(deposits_##target) },
 static const Target targets[] = { EW_TARGETS(TARGET_ROW) };
 
 typedef struct {
@@ -74,6 +93,17 @@ typedef struct {
 #define SHAPE(id, window, turns, accumulators, outputs, finish) \
 	{ window, turns, accumulators, outputs, finish },
 static const Shape shapes[] = { EW_RINGS_SHAPES(SHAPE) };
+
+#define FAMILY(id, family, m, n, accumulators, outputs, k, r) #family,
+static const char *const families[] = { EW_RINGS(FAMILY) };
+
+/* How many constants a lane has. */
+static size_t places_of(int id)
+{
+	if (strcmp(families[id], "coverage") == 0)
+		return CELL_SIDES;
+	return shapes[id].window == 3 && strcmp(families[id], "quad") != 0;
+}
 
 static const Target *find_target(unsigned bit)
 {
@@ -104,9 +134,9 @@ typedef struct {
 	const char *form;
 	size_t size, lanes;             /* of a number in bytes; L */
 	size_t reach, step;
-	size_t origins;                 /* how many the kernel may read */
+	size_t places, origins;         /* constants of a lane; how many numbers may be read */
 	bool wild;                      /* the data are not finite */
-	double x[VERTICES], y[VERTICES], origin[FLOATS];        /* room for either precision */
+	double x[VERTICES], y[VERTICES], origin[ORIGINS];       /* room for either precision */
 	double first[CELLS], want[CELLS];
 } Case;
 
@@ -147,14 +177,26 @@ static size_t vertices(const Case *c, size_t count)
 	return count ? count + (c->shape->window - 1) * c->reach : 0;
 }
 
+/* Two sides of a cell, in order but for one cell in eight, which is empty then. */
+static void case_sides(Case *c, size_t place, size_t lane)
+{
+	const double a = random_real(-2, 2), b = random_real(-2, 2);
+	const bool ordered = random_int(0, 7) > 0;
+	put(c, c->origin, place * c->lanes + lane, ordered ? fmin(a, b) : fmax(a, b));
+	put(c, c->origin, (place + 1) * c->lanes + lane, ordered ? fmax(a, b) : fmin(a, b));
+}
+
 static void case_random(Case *c)
 {
 	for (size_t i = 0; i < VERTICES; i++) {
 		put(c, c->x, i, random_real(-2, 2));
 		put(c, c->y, i, random_real(-2, 2));
 	}
-	for (size_t l = 0; l < c->lanes; l++)
+	for (size_t l = 0; l < c->lanes; l++) {
 		put(c, c->origin, l, random_real(-2, 2));
+		for (size_t place = 0; place + 1 < c->places; place += 2)
+			case_sides(c, place, l);
+	}
 	for (size_t i = 0; i < c->shape->accumulators * c->lanes; i++)
 		put(c, c->first, i, random_real(-9, 9));
 	memcpy(c->want, c->first, sizeof c->want);
@@ -274,7 +316,7 @@ static void expect_shifted(Case *c, size_t count, const size_t shift[ARRAYS])
 	const size_t cells = c->shape->accumulators * c->lanes * c->size;
 	memcpy(place[X], c->x, vertices(c, count) * c->size);
 	memcpy(place[Y], c->y, vertices(c, count) * c->size);
-	memcpy(place[ORIGIN], c->origin, c->lanes * c->size);
+	memcpy(place[ORIGIN], c->origin, c->places * c->lanes * c->size);
 	memcpy(place[SUM], c->first, cells);
 	note(c, count, "shifted");
 	call(c->kernel, place[X], place[Y], place[ORIGIN], c->reach, c->step, count, place[SUM]);
@@ -317,10 +359,11 @@ static void spoil(Case *c, int what, double bad, size_t *count)
 	const size_t k = (size_t)random_int(0, (int)c->shape->accumulators - 1);
 	*count = (size_t)random_int(what > Y ? (int)all : 1, (int)most);
 	const size_t vertex = (size_t)random_int(0, (int)vertices(c, *count) - 1);
+	const size_t place = (size_t)random_int(0, c->places ? (int)c->places - 1 : 0);
 	switch (what) {
 	case X: put(c, c->x, vertex, bad); break;
 	case Y: put(c, c->y, vertex, bad); break;
-	case ORIGIN: put(c, c->origin, lane, bad); break;
+	case ORIGIN: put(c, c->origin, place * c->lanes + lane, bad); break;
 	default: put(c, c->first, k * c->lanes + lane, bad); break;
 	}
 	c->wild = true;
@@ -345,7 +388,7 @@ static void test_form(Case *c, const char *form, size_t reach, size_t step, size
 	c->form = form;
 	c->reach = reach;
 	c->step = step;
-	c->origins = c->shape->window == 3 ? origins : 0;
+	c->origins = c->places ? (c->places - 1) * c->lanes + origins : 0;
 	test_counts(c);
 	test_alignment(c);
 	test_leaks(c);
@@ -357,6 +400,7 @@ static void test_forms(const Target *target, const Kernel *kernel)
 	c.kernel = kernel;
 	c.scalar = defining(target, kernel);
 	c.shape = &shapes[kernel->id];
+	c.places = places_of(kernel->id);
 	c.size = kernel->runf ? sizeof(float) : sizeof(double);
 	c.lanes = kernel->runf ? FLOATS : DOUBLES;
 	/* scalar kernels take columns of any width */
@@ -411,6 +455,225 @@ static void test_finish(const Target *target, const Finish *f)
 	}
 }
 
+/* Deposits: pieces of edges within the unit cell. */
+
+typedef struct {
+	float x[2], y[2];               /* start and end */
+} Piece;
+
+/* A coordinate within the cell; now and then a side of it, or close to one. */
+static float piece_coordinate(void)
+{
+	switch (random_int(0, 7)) {
+	case 0: return 0;
+	case 1: return 1;
+	case 2: return 0x1.fffffep-1f;
+	case 3: return (float)ldexp(random_real(0, 1), -random_int(10, 140));
+	case 4: return (float)random_int(0, 1 << 20) * 0x1p-20f;
+	default: return (float)random_real(0, 1);
+	}
+}
+
+static Piece piece_random(void)
+{
+	Piece p;
+	for (int end = 0; end < 2; end++) {
+		p.x[end] = fminf(piece_coordinate(), 1);
+		p.y[end] = fminf(piece_coordinate(), 1);
+	}
+	if (random_int(0, 7) == 0)
+		p.x[1] = p.x[0];
+	if (random_int(0, 7) == 0)
+		p.y[1] = p.y[0];
+	return p;
+}
+
+static Piece piece_reversed(Piece p)
+{
+	return (Piece){ { p.x[1], p.x[0] }, { p.y[1], p.y[0] } };
+}
+
+static int outputs_of(const ew_filter *filter)
+{
+	return filter->size * (filter->size + 1);
+}
+
+/* One piece alone; `out` takes all its numbers. */
+static void deposit_one(ew_deposit *deposit, const ew_filter *filter, Piece p, float *out)
+{
+	float x[2 * TAKEN] = { p.x[0] }, y[2 * TAKEN] = { p.y[0] }, all[OUTPUTS * TAKEN];
+	x[TAKEN] = p.x[1];
+	y[TAKEN] = p.y[1];
+	deposit(x, y, TAKEN, 1, all);
+	for (int k = 0; k < outputs_of(filter); k++)
+		out[k] = all[k * TAKEN];
+}
+
+static const Deposit *defining_deposit(const Target *target, const Deposit *deposit)
+{
+	const Target *scalar = find_target(target->bit == EW_PORTABLE ? EW_PORTABLE : EW_FMA);
+	for (size_t i = 0; i < scalar->deposit_count; i++) {
+		if (scalar->deposits[i].filter == deposit->filter)
+			return &scalar->deposits[i];
+	}
+	abort();
+}
+
+/* Outputs of `count` pieces, and what stands behind them in each row: computed to the next multiple
+ * of 16, and not touched beyond. */
+static void expect_deposited(const Deposit *d, const Deposit *scalar, const Piece *piece,
+	const float *out, size_t reach, size_t count)
+{
+	const size_t taken = (count + TAKEN - 1) / TAKEN * TAKEN;
+	for (size_t i = 0; i < count; i++) {
+		float want[OUTPUTS];
+		deposit_one(scalar->deposit, d->filter, piece[i], want);
+		for (int k = 0; k < outputs_of(d->filter); k++)
+			expect(memcmp(&out[(size_t)k * reach + i], &want[k], sizeof *want) == 0,
+				"piece %zu of %zu (%a, %a) (%a, %a): output %d is %a, alone %a", i,
+				count, (double)piece[i].x[0], (double)piece[i].y[0],
+				(double)piece[i].x[1], (double)piece[i].y[1], k,
+				(double)out[(size_t)k * reach + i], (double)want[k]);
+	}
+	for (size_t i = taken; i < reach; i++) {
+		for (int k = 0; k < outputs_of(d->filter); k++)
+			expect(guarded_filled((const char *)&out[(size_t)k * reach + i],
+				(const char *)&out[(size_t)k * reach + i + 1], CANARY),
+				"%zu pieces: output %d of piece %zu is written", count, k, i);
+	}
+}
+
+static void expect_deposits(const Deposit *d, const Deposit *scalar, size_t reach, size_t count,
+	bool back)
+{
+	static float x[2 * PIECES], y[2 * PIECES];
+	Piece piece[PIECES];
+	const size_t bytes = 2 * reach * sizeof *x;
+	const size_t all = (size_t)outputs_of(d->filter) * reach * sizeof *x;
+	for (size_t i = 0; i < reach; i++) {
+		piece[i] = piece_random();
+		for (size_t end = 0; end < 2; end++) {
+			x[end * reach + i] = piece[i].x[end];
+			y[end * reach + i] = piece[i].y[end];
+		}
+	}
+	const float *px = guarded_put(&guarded[X], x, bytes, back, NOT_A_NUMBER);
+	const float *py = guarded_put(&guarded[Y], y, bytes, back, NOT_A_NUMBER);
+	float *out = guarded_put(&guarded[SUM], NULL, 0, back, CANARY);
+	out -= back ? all / sizeof *out : 0;
+	now.form = "deposit";
+	now.count = count;
+	now.place = "between guard pages";
+	d->deposit(px, py, reach, count, out);
+	expect_deposited(d, scalar, piece, out, reach, count);
+	expect(guarded_kept(&guarded[SUM], out, all, CANARY),
+		"%zu pieces: writes besides its outputs", count);
+	expect(memcmp(px, x, bytes) == 0 && memcmp(py, y, bytes) == 0,
+		"%zu pieces: changes its inputs", count);
+}
+
+/* The integral of the filter over the region above a piece that lies in its column q and row s, to
+ * the end of the support; by ew_NAME in double. */
+static double above_piece(const ew_filter *filter, Piece p, int q, int s)
+{
+	double (*const functions[])(const double *, const double *, size_t, double, double) = {
+#define FUNCTION(function, edge, id) function,
+		EW_FILTERS_DOUBLE(FUNCTION)
+	};
+	const int ids[] = {
+#define ID(function, edge, id) id,
+		EW_FILTERS_DOUBLE(ID)
+	};
+	const double left = filter->first_x + q, low = filter->first_y + s;
+	const double top = filter->last_y + 2;
+	const double x[] = {
+		left + (double)p.x[0], left + (double)p.x[1], left + (double)p.x[1],
+		left + (double)p.x[0]
+	};
+	const double y[] = { low + (double)p.y[0], low + (double)p.y[1], top, top };
+	for (size_t i = 0; i < COUNT(ids); i++) {
+		if (ids[i] == filter->ring)
+			return functions[i](x, y, 4, 0, 0);
+	}
+	abort();
+}
+
+/* Rows 0 .. r of a column add up to what a pixel gets in whose support the piece lies in row
+ * size-1 - r, and all of them to the total, which stands in place of the middle row. An output is
+ * off by 16 roundings of float, 2^-24, of numbers below 1; a total, by that at both ends, where P is
+ * moved by up to half a unit and rounded by another half; and the middle row by all of these. */
+static void expect_integrals(const Deposit *d, Piece p, const float *out)
+{
+	const int size = d->filter->size, middle = size / 2;
+	const double unit = d->filter->unit;
+	for (int m = 0; m < size; m++) {
+		double sum = 0, rest = 0;
+		for (int r = 0; r <= size; r++)
+			rest += (r == middle ? 1 : -1) * (double)out[r * size + m] * unit;
+		for (int r = 0; r <= size; r++) {
+			const double want = above_piece(d->filter, p, size - 1 - m, size - 1 - r);
+			const double most = r < middle ? (r + 1) * 0x1p-20
+				: (size - r) * 0x1p-20 + 2 * (0x1p-20 + unit);
+			sum += r == middle ? rest : (double)out[r * size + m] * unit;
+			expect(fabs(sum - want) <= most, "rows 0 to %d of column %d for (%a, %a) "
+				"(%a, %a) are %a, not %a: off by %g", r, m, (double)p.x[0],
+				(double)p.y[0], (double)p.x[1], (double)p.y[1], sum, want,
+				sum - want);
+		}
+	}
+}
+
+/* 0 has no sign here: adding it to an image changes nothing. */
+static void expect_piece(const Deposit *d, Piece p)
+{
+	const int size = d->filter->size;
+	float out[OUTPUTS], back[OUTPUTS];
+	deposit_one(d->deposit, d->filter, p, out);
+	deposit_one(d->deposit, d->filter, piece_reversed(p), back);
+	for (int k = 0; k < outputs_of(d->filter); k++)
+		expect(out[k] == -back[k], "output %d is %a, reversed %a", k, (double)out[k],
+			(double)back[k]);
+	for (int m = 0; m < size; m++) {
+		const float total = out[size / 2 * size + m];
+		expect(rintf(total) == total && fabsf(total) <= 0x1p23f,
+			"the total of column %d is %a", m, (double)total);
+	}
+	expect_integrals(d, p, out);
+}
+
+/* Totals depend on the abscissas alone, and add up along an edge: exactly. */
+static void expect_totals(const Deposit *d)
+{
+	const int size = d->filter->size;
+	const Piece p = piece_random(), r = piece_random(), parts[] = {
+		p, { { p.x[1], r.x[0] }, { r.y[0], r.y[1] } },
+		{ { r.x[0], p.x[0] }, { p.y[1], r.y[1] } }
+	};
+	float out[3][OUTPUTS];
+	for (int i = 0; i < 3; i++)
+		deposit_one(d->deposit, d->filter, parts[i], out[i]);
+	for (int k = size / 2 * size; k < (size / 2 + 1) * size; k++)
+		expect(out[0][k] + out[1][k] == -out[2][k], "column %d of a way there and back "
+			"adds up to %a", k % size,
+			(double)(out[0][k] + out[1][k] + out[2][k]));
+}
+
+static void test_deposit(const Target *target, const Deposit *deposit)
+{
+	const Deposit *scalar = defining_deposit(target, deposit);
+	for (size_t reach = TAKEN; reach <= PIECES; reach += TAKEN) {
+		for (size_t count = 0; count <= reach; count++) {
+			expect_deposits(deposit, scalar, reach, count, false);
+			expect_deposits(deposit, scalar, reach, count, true);
+		}
+	}
+	now.place = "one by one";
+	for (int i = 0; i < 2000; i++) {
+		expect_piece(deposit, piece_random());
+		expect_totals(deposit);
+	}
+}
+
 /* Crashes. */
 
 static sigjmp_buf crashed;
@@ -447,6 +710,15 @@ static void test_target(const Target *target)
 			test_finish(target, &target->finishes[i]);
 		check_end();
 	}
+	for (volatile size_t i = 0; i < target->deposit_count; i++) {
+		check_begin("%s", target->deposits[i].name);
+		const int number = sigsetjmp(crashed, 1);
+		if (number)
+			charge(number);
+		else
+			test_deposit(target, &target->deposits[i]);
+		check_end();
+	}
 }
 
 int main(int argc, char **argv)
@@ -456,7 +728,7 @@ int main(int argc, char **argv)
 	for (size_t i = 0; i < COUNT(signals); i++)
 		signal(signals[i], jump);
 	for (int i = 0; i < ARRAYS; i++)
-		guarded[i] = guarded_new(CELLS * sizeof(double));
+		guarded[i] = guarded_new(CELLS * sizeof(double) + OUTPUTS * PIECES * sizeof(float));
 	for (unsigned bit = 1; strcmp(ew_target_name(bit), "unknown") != 0; bit <<= 1) {
 		const Target *target = find_target(bit);
 		if (!target)

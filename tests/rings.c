@@ -608,6 +608,7 @@ static bool is_known(const char *family)
 		"moments", "monomial", "magnitudes", "compensated",
 		"line", "quad", "conic", "cubic",      /* curves.c, conics.c, paths.c */
 		"radius", "closure",                   /* distance.c, closure.c */
+		"coverage", "filter",                  /* windows.c, filters.c */
 	};
 	for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
 		if (strcmp(family, known[i]) == 0)
@@ -632,9 +633,10 @@ static void test_list(void)
 		const Row *row = &ring_rows[i];
 		const bool known = is_known(row->family);
 		const bool bounded = strcmp(row->family, "compensated") != 0;
+		const bool by_name = strcmp(row->family, "filter") == 0;
 		expect(known, "no test knows the family %s of %s", row->family, row->name);
-		expect(!known || find_row(row->family, row->m, row->n) == row, "%s is listed twice",
-			row->name);
+		expect(!known || by_name || find_row(row->family, row->m, row->n) == row,
+			"%s is listed twice", row->name);
 		expect(row->accumulators >= row->outputs && (row->k > 0) == bounded
 			&& (row->r > 0) == bounded, "row of %s", row->name);
 	}

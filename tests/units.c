@@ -267,6 +267,42 @@ static int reverses(int fused, int same_order)
 	return dag_reverses(dag);
 }
 
+/* The width of an edge times what an operation makes of a, b, or of the width and a, b. */
+static int selects(int op, int a, int b)
+{
+	Dag *dag = dag_new("test");
+	Ref start = dag_var(dag, VAR_X0), end = dag_var(dag, VAR_X1);
+	Ref run = dag_sub(dag, end, start), left = dag_var(dag, a), right = dag_var(dag, b);
+	Ref value = op == OP_CHOOSE ? dag_choose(dag, run, left, right)
+		: dag_node(dag, op, left, right, NONE);
+	dag_out(dag, dag_mul(dag, run, value));
+	return dag_reverses(dag);
+}
+
+/* The width rounded to a multiple of a number, and 0. */
+static int rounds(int multiple)
+{
+	Dag *dag = dag_new("test");
+	Ref start = dag_var(dag, VAR_X0), end = dag_var(dag, VAR_X1);
+	Ref run = dag_sub(dag, end, start), unit = dag_const(dag, rat(multiple, 1));
+	dag_out(dag, dag_node(dag, OP_ROUND, run, unit, NONE));
+	dag_out(dag, dag_const(dag, rat(0, 1)));
+	return dag_reverses(dag);
+}
+
+static void test_selections(void)
+{
+	check_begin("reversal of what selects");
+	for (int op = OP_MAX; op <= OP_MIN; ++op) {
+		expect(selects(op, VAR_Y0, VAR_Y1), "the %s of both ends is refused", op_name(op));
+		expect(!selects(op, VAR_X0, VAR_Y1), "any %s is accepted", op_name(op));
+	}
+	expect(selects(OP_CHOOSE, VAR_Y0, VAR_Y1), "a choice between both ends is refused");
+	expect(!selects(OP_CHOOSE, VAR_Y0, VAR_X1), "any choice is accepted");
+	expect(rounds(12), "a rounded width is refused");
+	check_end();
+}
+
 static void test_reversal(void)
 {
 	check_begin("reversal is proven bit for bit");
@@ -285,5 +321,6 @@ int main(int argc, char **argv)
 	test_overflow();
 	test_polynomials();
 	test_reversal();
+	test_selections();
 	return check_finish();
 }
