@@ -56,10 +56,10 @@ $(B)/obj $(B)/lib $(B)/tests:
 $(B)/embed: gen/embed.c | $(B)/obj
 	$(COMPILE) -o $@ $< $(LDFLAGS)
 
-$(B)/obj/embedded_runtime.c: $(B)/embed $(RUNTIME)
+$(B)/obj/embedded_runtime.c: $(B)/embed $(RUNTIME) Makefile
 	$(B)/embed embedded_runtime $(RUNTIME) >$@
 
-$(B)/obj/embedded_filters.c: $(B)/embed $(FILTERS)
+$(B)/obj/embedded_filters.c: $(B)/embed $(FILTERS) Makefile
 	$(B)/embed embedded_filters $(FILTERS) >$@
 
 $(B)/obj/embedded_%.o: $(B)/obj/embedded_%.c gen/gen.h

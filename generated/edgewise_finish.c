@@ -944,6 +944,48 @@ void ew_ring_closure_finish(const double *sum, double *out, size_t stride)
 	out[0 * stride] = sum[0 * stride];
 }
 
+/* area below an edge in the rectangle [u0,u1] x [v0,v1], counterclockwise positive */
+void ew_ring_coverage_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = 0.5 * sum[0 * stride];
+}
+
+/* integral of the filter box, centred at (0,0) */
+void ew_ring_box_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = sum[0 * stride];
+}
+
+/* integral of the filter tent, centred at (0,0) */
+void ew_ring_tent_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = sum[0 * stride];
+}
+
+/* integral of the filter bspline2, centred at (0,0) */
+void ew_ring_bspline2_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = sum[0 * stride];
+}
+
+/* integral of the filter bspline3, centred at (0,0) */
+void ew_ring_bspline3_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = sum[0 * stride];
+}
+
+/* integral of the filter catmull_rom, centred at (0,0) */
+void ew_ring_catmull_rom_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = sum[0 * stride];
+}
+
+/* integral of the filter mitchell, centred at (0,0) */
+void ew_ring_mitchell_finish(const double *sum, double *out, size_t stride)
+{
+	out[0 * stride] = sum[0 * stride];
+}
+
 /* area */
 void ew_ring_x0y0_finish(const double *sum, double *out, size_t stride)
 {

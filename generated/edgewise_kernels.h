@@ -89,7 +89,12 @@
 #define EW_BUILD_AVX512 EW_X86
 #define EW_BUILD_NEON EW_ARM
 
+#define EW_LEAST DBL_MIN
+#define EW_LEASTf FLT_MIN
+
 /* Operations that are more than one instruction; see ew_ring_choose, ew_ring_exponent and ew_ring_fraction. */
+#define EW_LEAST_pd DBL_MIN
+#define EW_LEAST_ps FLT_MIN
 #define EW_ABS_mm256_pd(a) _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)
 #define EW_ABS_mm256_ps(a) _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a)
 #define EW_ABS_mm512_pd(a) _mm512_abs_pd(a)
@@ -99,9 +104,13 @@
 #define EW_SQRT_mm512_pd(a) _mm512_maskz_sqrt_pd(0xff, a)
 #define EW_SQRT_mm512_ps(a) _mm512_maskz_sqrt_ps(0xffff, a)
 #define EW_MAX_mm256_pd(a, b) _mm256_max_pd(a, b)
+#define EW_MIN_mm256_pd(a, b) _mm256_min_pd(a, b)
 #define EW_MAX_mm256_ps(a, b) _mm256_max_ps(a, b)
+#define EW_MIN_mm256_ps(a, b) _mm256_min_ps(a, b)
 #define EW_MAX_mm512_pd(a, b) _mm512_maskz_max_pd(0xff, a, b)
+#define EW_MIN_mm512_pd(a, b) _mm512_maskz_min_pd(0xff, a, b)
 #define EW_MAX_mm512_ps(a, b) _mm512_maskz_max_ps(0xffff, a, b)
+#define EW_MIN_mm512_ps(a, b) _mm512_maskz_min_ps(0xffff, a, b)
 #define EW_CHOOSE_mm256_pd(a, b, c) _mm256_blendv_pd(c, b, \
 	_mm256_cmp_pd(a, _mm256_setzero_pd(), _CMP_GT_OQ))
 #define EW_CHOOSE_mm256_ps(a, b, c) _mm256_blendv_ps(c, b, \
@@ -140,8 +149,12 @@
 #define EW_FRACTION_mm512_ps(a) _mm512_castsi512_ps(_mm512_sub_epi32( \
 	_mm512_castps_si512(a), \
 	_mm512_maskz_slli_epi32(0xffff, _mm512_maskz_srli_epi32(0xffff, EW_BITS_mm512_ps(a), 23), 23)))
+#define EW_LEAST_f64 DBL_MIN
+#define EW_LEAST_f32 FLT_MIN
 #define EW_MAX_f64(a, b) vbslq_f64(vcgtq_f64(a, b), a, b)
+#define EW_MIN_f64(a, b) vbslq_f64(vcltq_f64(a, b), a, b)
 #define EW_MAX_f32(a, b) vbslq_f32(vcgtq_f32(a, b), a, b)
+#define EW_MIN_f32(a, b) vbslq_f32(vcltq_f32(a, b), a, b)
 #define EW_CHOOSE_f64(a, b, c) vbslq_f64(vcgtzq_f64(a), b, c)
 #define EW_CHOOSE_f32(a, b, c) vbslq_f32(vcgtzq_f32(a), b, c)
 #define EW_BITS_f64(a) \
@@ -154,11 +167,15 @@
 #define EW_FRACTION_f32(a) vreinterpretq_f32_u32(vsubq_u32(vreinterpretq_u32_f32(a), \
 	vshlq_n_u32(vshrq_n_u32(EW_BITS_f32(a), 23), 23)))
 
-/* a > b ? a : b; a > 0 ? b : c; for a >= 1 the integer k with a 2^-k in [sqrt 1/2, sqrt 2),
+/* a > b ? a : b; a < b ? a : b; a > 0 ? b : c; for a >= 1 the integer k with a 2^-k in [sqrt 1/2, sqrt 2),
  * and that number. */
 static inline double ew_ring_max(double a, double b)
 {
 	return a > b ? a : b;
+}
+static inline double ew_ring_min(double a, double b)
+{
+	return a < b ? a : b;
 }
 static inline double ew_ring_choose(double a, double b, double c)
 {
@@ -183,6 +200,10 @@ static inline double ew_ring_fraction(double a)
 static inline float ew_ring_maxf(float a, float b)
 {
 	return a > b ? a : b;
+}
+static inline float ew_ring_minf(float a, float b)
+{
+	return a < b ? a : b;
 }
 static inline float ew_ring_choosef(float a, float b, float c)
 {
@@ -330,10 +351,10 @@ static inline float ew_ring_fractionf(float a)
 	X(EW_RING_QUAD_4, quad, 4, 0, 15, 15, 54, 1) \
 	X(EW_RING_QUAD_8, quad, 8, 0, 45, 45, 92, 1) \
 	X(EW_RING_CONIC_0, conic, 0, 0, 1, 1, 24, 1) \
-	X(EW_RING_CONIC_1, conic, 1, 0, 3, 3, 42, 1) \
-	X(EW_RING_CONIC_2, conic, 2, 0, 6, 6, 52, 1) \
-	X(EW_RING_CONIC_4, conic, 4, 0, 15, 15, 73, 1) \
-	X(EW_RING_CONIC_8, conic, 8, 0, 45, 45, 114, 1) \
+	X(EW_RING_CONIC_1, conic, 1, 0, 3, 3, 41, 1) \
+	X(EW_RING_CONIC_2, conic, 2, 0, 6, 6, 51, 1) \
+	X(EW_RING_CONIC_4, conic, 4, 0, 15, 15, 72, 1) \
+	X(EW_RING_CONIC_8, conic, 8, 0, 45, 45, 113, 1) \
 	X(EW_RING_CUBIC_0, cubic, 0, 0, 1, 1, 9, 1) \
 	X(EW_RING_CUBIC_1, cubic, 1, 0, 3, 3, 22, 1) \
 	X(EW_RING_CUBIC_2, cubic, 2, 0, 6, 6, 50, 1) \
@@ -344,6 +365,13 @@ static inline float ew_ring_fractionf(float a)
 	X(EW_RING_RADIUS_3, radius, 3, 0, 1, 1, 34, 1) \
 	X(EW_RING_RADIUS_5, radius, 5, 0, 1, 1, 40, 1) \
 	X(EW_RING_CLOSURE, closure, 0, 0, 1, 1, 4, 1) \
+	X(EW_RING_COVERAGE, coverage, 0, 0, 1, 1, 45, 1) \
+	X(EW_RING_BOX, filter, 0, 0, 1, 1, 54, 1) \
+	X(EW_RING_TENT, filter, 1, 0, 1, 1, 117, 1) \
+	X(EW_RING_BSPLINE2, filter, 2, 0, 1, 1, 180, 1) \
+	X(EW_RING_BSPLINE3, filter, 3, 0, 1, 1, 236, 1) \
+	X(EW_RING_CATMULL_ROM, filter, 3, 0, 1, 1, 236, 1) \
+	X(EW_RING_MITCHELL, filter, 3, 0, 1, 1, 240, 1) \
 	X(EW_RING_X0Y0, monomial, 0, 0, 2, 1, 5, 1) \
 	X(EW_RING_X1Y0, monomial, 1, 0, 1, 1, 7, 1) \
 	X(EW_RING_X0Y1, monomial, 0, 1, 1, 1, 7, 1) \
@@ -431,6 +459,13 @@ enum {
 	EW_RING_RADIUS_3,
 	EW_RING_RADIUS_5,
 	EW_RING_CLOSURE,
+	EW_RING_COVERAGE,
+	EW_RING_BOX,
+	EW_RING_TENT,
+	EW_RING_BSPLINE2,
+	EW_RING_BSPLINE3,
+	EW_RING_CATMULL_ROM,
+	EW_RING_MITCHELL,
 	EW_RING_X0Y0,
 	EW_RING_X1Y0,
 	EW_RING_X0Y1,
@@ -523,6 +558,13 @@ enum {
 	X(EW_RING_RADIUS_3, 2, 1, 1, 1, ew_ring_radius_3_finish) \
 	X(EW_RING_RADIUS_5, 2, 1, 1, 1, ew_ring_radius_5_finish) \
 	X(EW_RING_CLOSURE, 2, 1, 1, 1, ew_ring_closure_finish) \
+	X(EW_RING_COVERAGE, 2, 1, 1, 1, ew_ring_coverage_finish) \
+	X(EW_RING_BOX, 2, 1, 1, 1, ew_ring_box_finish) \
+	X(EW_RING_TENT, 2, 1, 1, 1, ew_ring_tent_finish) \
+	X(EW_RING_BSPLINE2, 2, 1, 1, 1, ew_ring_bspline2_finish) \
+	X(EW_RING_BSPLINE3, 2, 1, 1, 1, ew_ring_bspline3_finish) \
+	X(EW_RING_CATMULL_ROM, 2, 1, 1, 1, ew_ring_catmull_rom_finish) \
+	X(EW_RING_MITCHELL, 2, 1, 1, 1, ew_ring_mitchell_finish) \
 	X(EW_RING_X0Y0, 3, 2, 2, 1, ew_ring_x0y0_finish) \
 	X(EW_RING_X1Y0, 2, 1, 1, 1, ew_ring_x1y0_finish) \
 	X(EW_RING_X0Y1, 2, 1, 1, 1, ew_ring_x0y1_finish) \
@@ -663,6 +705,13 @@ enum {
 	X(EW_RING_RADIUS_3, ew_ring_radius_3_portable, 55, 62) \
 	X(EW_RING_RADIUS_5, ew_ring_radius_5_portable, 63, 67) \
 	X(EW_RING_CLOSURE, ew_ring_closure_portable, 2, 2) \
+	X(EW_RING_COVERAGE, ew_ring_coverage_portable, 9, 44) \
+	X(EW_RING_BOX, ew_ring_box_portable, 14, 52) \
+	X(EW_RING_TENT, ew_ring_tent_portable, 95, 165) \
+	X(EW_RING_BSPLINE2, ew_ring_bspline2_portable, 319, 394) \
+	X(EW_RING_BSPLINE3, ew_ring_bspline3_portable, 845, 883) \
+	X(EW_RING_CATMULL_ROM, ew_ring_catmull_rom_portable, 845, 849) \
+	X(EW_RING_MITCHELL, ew_ring_mitchell_portable, 845, 917) \
 	X(EW_RING_X0Y0, ew_ring_x0y0_portable, 1, 3) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_portable, 3, 3) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_portable, 3, 3) \
@@ -751,6 +800,13 @@ enum {
 	X(EW_RING_RADIUS_3, ew_ring_radius_3_fma, 45, 24) \
 	X(EW_RING_RADIUS_5, ew_ring_radius_5_fma, 53, 27) \
 	X(EW_RING_CLOSURE, ew_ring_closure_fma, 2, 2) \
+	X(EW_RING_COVERAGE, ew_ring_coverage_fma, 9, 41) \
+	X(EW_RING_BOX, ew_ring_box_fma, 14, 47) \
+	X(EW_RING_TENT, ew_ring_tent_fma, 95, 120) \
+	X(EW_RING_BSPLINE2, ew_ring_bspline2_fma, 319, 220) \
+	X(EW_RING_BSPLINE3, ew_ring_bspline3_fma, 845, 350) \
+	X(EW_RING_CATMULL_ROM, ew_ring_catmull_rom_fma, 845, 350) \
+	X(EW_RING_MITCHELL, ew_ring_mitchell_fma, 845, 350) \
 	X(EW_RING_X0Y0, ew_ring_x0y0_fma, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_fma, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_fma, 3, 2) \
@@ -839,6 +895,13 @@ enum {
 	X(EW_RING_RADIUS_3, ew_ring_radius_3_avx2, 45, 24) \
 	X(EW_RING_RADIUS_5, ew_ring_radius_5_avx2, 53, 27) \
 	X(EW_RING_CLOSURE, ew_ring_closure_avx2, 2, 2) \
+	X(EW_RING_COVERAGE, ew_ring_coverage_avx2, 9, 41) \
+	X(EW_RING_BOX, ew_ring_box_avx2, 14, 47) \
+	X(EW_RING_TENT, ew_ring_tent_avx2, 95, 120) \
+	X(EW_RING_BSPLINE2, ew_ring_bspline2_avx2, 319, 220) \
+	X(EW_RING_BSPLINE3, ew_ring_bspline3_avx2, 845, 350) \
+	X(EW_RING_CATMULL_ROM, ew_ring_catmull_rom_avx2, 845, 350) \
+	X(EW_RING_MITCHELL, ew_ring_mitchell_avx2, 845, 350) \
 	X(EW_RING_X0Y0, ew_ring_x0y0_avx2, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_avx2, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_avx2, 3, 2) \
@@ -927,6 +990,13 @@ enum {
 	X(EW_RING_RADIUS_3, ew_ring_radius_3_avx512, 45, 24) \
 	X(EW_RING_RADIUS_5, ew_ring_radius_5_avx512, 53, 27) \
 	X(EW_RING_CLOSURE, ew_ring_closure_avx512, 2, 2) \
+	X(EW_RING_COVERAGE, ew_ring_coverage_avx512, 9, 41) \
+	X(EW_RING_BOX, ew_ring_box_avx512, 14, 47) \
+	X(EW_RING_TENT, ew_ring_tent_avx512, 95, 120) \
+	X(EW_RING_BSPLINE2, ew_ring_bspline2_avx512, 319, 220) \
+	X(EW_RING_BSPLINE3, ew_ring_bspline3_avx512, 845, 350) \
+	X(EW_RING_CATMULL_ROM, ew_ring_catmull_rom_avx512, 845, 350) \
+	X(EW_RING_MITCHELL, ew_ring_mitchell_avx512, 845, 350) \
 	X(EW_RING_X0Y0, ew_ring_x0y0_avx512, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_avx512, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_avx512, 3, 2) \
@@ -1015,6 +1085,13 @@ enum {
 	X(EW_RING_RADIUS_3, ew_ring_radius_3_neon, 45, 24) \
 	X(EW_RING_RADIUS_5, ew_ring_radius_5_neon, 53, 27) \
 	X(EW_RING_CLOSURE, ew_ring_closure_neon, 2, 2) \
+	X(EW_RING_COVERAGE, ew_ring_coverage_neon, 9, 41) \
+	X(EW_RING_BOX, ew_ring_box_neon, 14, 47) \
+	X(EW_RING_TENT, ew_ring_tent_neon, 95, 120) \
+	X(EW_RING_BSPLINE2, ew_ring_bspline2_neon, 319, 220) \
+	X(EW_RING_BSPLINE3, ew_ring_bspline3_neon, 845, 350) \
+	X(EW_RING_CATMULL_ROM, ew_ring_catmull_rom_neon, 845, 350) \
+	X(EW_RING_MITCHELL, ew_ring_mitchell_neon, 845, 350) \
 	X(EW_RING_X0Y0, ew_ring_x0y0_neon, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0_neon, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1_neon, 3, 2) \
@@ -1106,6 +1183,13 @@ enum {
 	X(EW_RING_RADIUS_3, ew_ring_radius_3f_portable, 51, 58) \
 	X(EW_RING_RADIUS_5, ew_ring_radius_5f_portable, 59, 63) \
 	X(EW_RING_CLOSURE, ew_ring_closuref_portable, 2, 2) \
+	X(EW_RING_COVERAGE, ew_ring_coveragef_portable, 9, 44) \
+	X(EW_RING_BOX, ew_ring_boxf_portable, 14, 52) \
+	X(EW_RING_TENT, ew_ring_tentf_portable, 95, 165) \
+	X(EW_RING_BSPLINE2, ew_ring_bspline2f_portable, 319, 394) \
+	X(EW_RING_BSPLINE3, ew_ring_bspline3f_portable, 845, 883) \
+	X(EW_RING_CATMULL_ROM, ew_ring_catmull_romf_portable, 845, 849) \
+	X(EW_RING_MITCHELL, ew_ring_mitchellf_portable, 845, 917) \
 	X(EW_RING_X0Y0, ew_ring_x0y0f_portable, 1, 3) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_portable, 3, 3) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_portable, 3, 3) \
@@ -1194,6 +1278,13 @@ enum {
 	X(EW_RING_RADIUS_3, ew_ring_radius_3f_fma, 41, 24) \
 	X(EW_RING_RADIUS_5, ew_ring_radius_5f_fma, 49, 27) \
 	X(EW_RING_CLOSURE, ew_ring_closuref_fma, 2, 2) \
+	X(EW_RING_COVERAGE, ew_ring_coveragef_fma, 9, 41) \
+	X(EW_RING_BOX, ew_ring_boxf_fma, 14, 47) \
+	X(EW_RING_TENT, ew_ring_tentf_fma, 95, 120) \
+	X(EW_RING_BSPLINE2, ew_ring_bspline2f_fma, 319, 220) \
+	X(EW_RING_BSPLINE3, ew_ring_bspline3f_fma, 845, 350) \
+	X(EW_RING_CATMULL_ROM, ew_ring_catmull_romf_fma, 845, 350) \
+	X(EW_RING_MITCHELL, ew_ring_mitchellf_fma, 845, 350) \
 	X(EW_RING_X0Y0, ew_ring_x0y0f_fma, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_fma, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_fma, 3, 2) \
@@ -1282,6 +1373,13 @@ enum {
 	X(EW_RING_RADIUS_3, ew_ring_radius_3f_avx2, 41, 24) \
 	X(EW_RING_RADIUS_5, ew_ring_radius_5f_avx2, 49, 27) \
 	X(EW_RING_CLOSURE, ew_ring_closuref_avx2, 2, 2) \
+	X(EW_RING_COVERAGE, ew_ring_coveragef_avx2, 9, 41) \
+	X(EW_RING_BOX, ew_ring_boxf_avx2, 14, 47) \
+	X(EW_RING_TENT, ew_ring_tentf_avx2, 95, 120) \
+	X(EW_RING_BSPLINE2, ew_ring_bspline2f_avx2, 319, 220) \
+	X(EW_RING_BSPLINE3, ew_ring_bspline3f_avx2, 845, 350) \
+	X(EW_RING_CATMULL_ROM, ew_ring_catmull_romf_avx2, 845, 350) \
+	X(EW_RING_MITCHELL, ew_ring_mitchellf_avx2, 845, 350) \
 	X(EW_RING_X0Y0, ew_ring_x0y0f_avx2, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_avx2, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_avx2, 3, 2) \
@@ -1370,6 +1468,13 @@ enum {
 	X(EW_RING_RADIUS_3, ew_ring_radius_3f_avx512, 41, 24) \
 	X(EW_RING_RADIUS_5, ew_ring_radius_5f_avx512, 49, 27) \
 	X(EW_RING_CLOSURE, ew_ring_closuref_avx512, 2, 2) \
+	X(EW_RING_COVERAGE, ew_ring_coveragef_avx512, 9, 41) \
+	X(EW_RING_BOX, ew_ring_boxf_avx512, 14, 47) \
+	X(EW_RING_TENT, ew_ring_tentf_avx512, 95, 120) \
+	X(EW_RING_BSPLINE2, ew_ring_bspline2f_avx512, 319, 220) \
+	X(EW_RING_BSPLINE3, ew_ring_bspline3f_avx512, 845, 350) \
+	X(EW_RING_CATMULL_ROM, ew_ring_catmull_romf_avx512, 845, 350) \
+	X(EW_RING_MITCHELL, ew_ring_mitchellf_avx512, 845, 350) \
 	X(EW_RING_X0Y0, ew_ring_x0y0f_avx512, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_avx512, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_avx512, 3, 2) \
@@ -1458,6 +1563,13 @@ enum {
 	X(EW_RING_RADIUS_3, ew_ring_radius_3f_neon, 41, 24) \
 	X(EW_RING_RADIUS_5, ew_ring_radius_5f_neon, 49, 27) \
 	X(EW_RING_CLOSURE, ew_ring_closuref_neon, 2, 2) \
+	X(EW_RING_COVERAGE, ew_ring_coveragef_neon, 9, 41) \
+	X(EW_RING_BOX, ew_ring_boxf_neon, 14, 47) \
+	X(EW_RING_TENT, ew_ring_tentf_neon, 95, 120) \
+	X(EW_RING_BSPLINE2, ew_ring_bspline2f_neon, 319, 220) \
+	X(EW_RING_BSPLINE3, ew_ring_bspline3f_neon, 845, 350) \
+	X(EW_RING_CATMULL_ROM, ew_ring_catmull_romf_neon, 845, 350) \
+	X(EW_RING_MITCHELL, ew_ring_mitchellf_neon, 845, 350) \
 	X(EW_RING_X0Y0, ew_ring_x0y0f_neon, 1, 2) \
 	X(EW_RING_X1Y0, ew_ring_x1y0f_neon, 3, 2) \
 	X(EW_RING_X0Y1, ew_ring_x0y1f_neon, 3, 2) \
@@ -1503,6 +1615,24 @@ enum {
 	X(EW_RING_X2Y6, ew_ring_x2y6f_neon, 40, 7) \
 	X(EW_RING_X1Y7, ew_ring_x1y7f_neon, 38, 2) \
 	X(EW_RING_X0Y8, ew_ring_x0y8f_neon, 17, 2)
+
+/* X(function, edge, id): a filter over a ring, and over one edge */
+#define EW_FILTERS_DOUBLE(X) \
+	X(ew_box, ew_line_box, EW_RING_BOX) \
+	X(ew_tent, ew_line_tent, EW_RING_TENT) \
+	X(ew_bspline2, ew_line_bspline2, EW_RING_BSPLINE2) \
+	X(ew_bspline3, ew_line_bspline3, EW_RING_BSPLINE3) \
+	X(ew_catmull_rom, ew_line_catmull_rom, EW_RING_CATMULL_ROM) \
+	X(ew_mitchell, ew_line_mitchell, EW_RING_MITCHELL)
+
+/* X(function, edge, id): a filter over a ring, and over one edge */
+#define EW_FILTERS_FLOAT(X) \
+	X(ew_boxf, ew_line_boxf, EW_RING_BOX) \
+	X(ew_tentf, ew_line_tentf, EW_RING_TENT) \
+	X(ew_bspline2f, ew_line_bspline2f, EW_RING_BSPLINE2) \
+	X(ew_bspline3f, ew_line_bspline3f, EW_RING_BSPLINE3) \
+	X(ew_catmull_romf, ew_line_catmull_romf, EW_RING_CATMULL_ROM) \
+	X(ew_mitchellf, ew_line_mitchellf, EW_RING_MITCHELL)
 
 /* X(k, r, products, wk, wr), for the moments to degree 0, 1, ...: k of each result, r and products
  * per item, k and r of their magnitudes */
@@ -1743,6 +1873,90 @@ EW_FINISHES_AVX512(EW_DECLARE)
 #if EW_BUILD_NEON
 #define EW_DECLARE(id, finish) ew_ring_finish finish;
 EW_FINISHES_NEON(EW_DECLARE)
+#undef EW_DECLARE
+#endif
+
+/* Piece i of an edge within a cell of the pixel grid moved by the corner of a filter, (x[i], y[i]) ->
+ * (x[reach + i], y[reach + i]) relative to the cell, adds out[(r N + m) reach + i] units to row r <= N, column
+ * m < N of a difference image, to be rounded to integers; but to row N/2 what is left of it, an integer, less the
+ * other rows. Pieces up to a multiple of 16 are computed. */
+typedef void ew_deposit(const float *x, const float *y, size_t reach, size_t count, float *out);
+struct ew_filter {
+	const char *name;
+	int size;        /* N, pixels per axis; 0: knots are not pixels apart */
+	double first_x, first_y, last_x, last_y;   /* support, from the centre */
+	double unit;     /* of the deposits */
+	int ring;        /* its kernels over rings */
+	ew_deposit *deposit[5];     /* by target, lowest bit first; NULL: not built */
+};
+
+/* X(filter, kernel, f, a): deposits, portable; per piece f on the FMA pipe, a additions */
+#define EW_DEPOSITS_PORTABLE(X) \
+	X(ew_filter_box, ew_deposit_box_portable, 6, 13) \
+	X(ew_filter_tent, ew_deposit_tent_portable, 37, 49) \
+	X(ew_filter_bspline2, ew_deposit_bspline2_portable, 96, 101) \
+	X(ew_filter_bspline3, ew_deposit_bspline3_portable, 191, 193) \
+	X(ew_filter_catmull_rom, ew_deposit_catmull_rom_portable, 191, 193) \
+	X(ew_filter_mitchell, ew_deposit_mitchell_portable, 191, 193)
+#if 1
+#define EW_DECLARE(filter, kernel, f, a) ew_deposit kernel;
+EW_DEPOSITS_PORTABLE(EW_DECLARE)
+#undef EW_DECLARE
+#endif
+
+/* X(filter, kernel, f, a): deposits, fma; per piece f on the FMA pipe, a additions */
+#define EW_DEPOSITS_FMA(X) \
+	X(ew_filter_box, ew_deposit_box_fma, 6, 10) \
+	X(ew_filter_tent, ew_deposit_tent_fma, 37, 27) \
+	X(ew_filter_bspline2, ew_deposit_bspline2_fma, 96, 42) \
+	X(ew_filter_bspline3, ew_deposit_bspline3_fma, 191, 63) \
+	X(ew_filter_catmull_rom, ew_deposit_catmull_rom_fma, 191, 63) \
+	X(ew_filter_mitchell, ew_deposit_mitchell_fma, 191, 63)
+#if EW_BUILD_FMA
+#define EW_DECLARE(filter, kernel, f, a) ew_deposit kernel;
+EW_DEPOSITS_FMA(EW_DECLARE)
+#undef EW_DECLARE
+#endif
+
+/* X(filter, kernel, f, a): deposits, avx2; per piece f on the FMA pipe, a additions */
+#define EW_DEPOSITS_AVX2(X) \
+	X(ew_filter_box, ew_deposit_box_avx2, 6, 10) \
+	X(ew_filter_tent, ew_deposit_tent_avx2, 37, 27) \
+	X(ew_filter_bspline2, ew_deposit_bspline2_avx2, 96, 42) \
+	X(ew_filter_bspline3, ew_deposit_bspline3_avx2, 191, 63) \
+	X(ew_filter_catmull_rom, ew_deposit_catmull_rom_avx2, 191, 63) \
+	X(ew_filter_mitchell, ew_deposit_mitchell_avx2, 191, 63)
+#if EW_BUILD_AVX2
+#define EW_DECLARE(filter, kernel, f, a) ew_deposit kernel;
+EW_DEPOSITS_AVX2(EW_DECLARE)
+#undef EW_DECLARE
+#endif
+
+/* X(filter, kernel, f, a): deposits, avx512; per piece f on the FMA pipe, a additions */
+#define EW_DEPOSITS_AVX512(X) \
+	X(ew_filter_box, ew_deposit_box_avx512, 6, 10) \
+	X(ew_filter_tent, ew_deposit_tent_avx512, 37, 27) \
+	X(ew_filter_bspline2, ew_deposit_bspline2_avx512, 96, 42) \
+	X(ew_filter_bspline3, ew_deposit_bspline3_avx512, 191, 63) \
+	X(ew_filter_catmull_rom, ew_deposit_catmull_rom_avx512, 191, 63) \
+	X(ew_filter_mitchell, ew_deposit_mitchell_avx512, 191, 63)
+#if EW_BUILD_AVX512
+#define EW_DECLARE(filter, kernel, f, a) ew_deposit kernel;
+EW_DEPOSITS_AVX512(EW_DECLARE)
+#undef EW_DECLARE
+#endif
+
+/* X(filter, kernel, f, a): deposits, neon; per piece f on the FMA pipe, a additions */
+#define EW_DEPOSITS_NEON(X) \
+	X(ew_filter_box, ew_deposit_box_neon, 6, 10) \
+	X(ew_filter_tent, ew_deposit_tent_neon, 37, 27) \
+	X(ew_filter_bspline2, ew_deposit_bspline2_neon, 96, 42) \
+	X(ew_filter_bspline3, ew_deposit_bspline3_neon, 191, 63) \
+	X(ew_filter_catmull_rom, ew_deposit_catmull_rom_neon, 191, 63) \
+	X(ew_filter_mitchell, ew_deposit_mitchell_neon, 191, 63)
+#if EW_BUILD_NEON
+#define EW_DECLARE(filter, kernel, f, a) ew_deposit kernel;
+EW_DEPOSITS_NEON(EW_DECLARE)
 #undef EW_DECLARE
 #endif
 

@@ -173,10 +173,10 @@ static int EW_RASTER(check_path)(const unsigned char *verbs, size_t verb_count,
 	    || (verb_count && verbs[0] != EW_MOVE))
 		return EW_BAD_PATH;
 	for (size_t i = 0; i < 2 * point_count; ++i)
-		if (!(points[i] >= -EW_FURTHEST && points[i] <= EW_FURTHEST))
+		if (!((double)points[i] >= -EW_FURTHEST && (double)points[i] <= EW_FURTHEST))
 			c->code = EW_BAD_COORDINATE;
 	for (size_t i = 0; i < weight_count; ++i)
-		if (!(weights[i] > -1))
+		if (!((double)weights[i] > -1))
 			c->code = EW_BAD_COORDINATE;
 	return EW_RASTER(read)(c, verbs, verb_count, points, point_count, weights, weight_count)
 		? c->code : EW_BAD_PATH;

@@ -65,7 +65,7 @@ cells, nodes of the rule|cells.c|s/degree_in_xy(up)) \/ 2 + 1/degree_in_xy(up) +
 cells, integral below a row|cells.c|s/up\[r\] = poly_add(below, poly_integral(rows\[r\], VAR_Y))/up[r] = poly_integral(rows[r], VAR_Y)/
 cells, integral above all rows|cells.c|s/poly_mul(cells->across\[q\], whole)/poly_add(cells->across[q], whole)/
 cells, corner|cells.c|s/poly_add(poly_var(VAR_X), poly_const(x))/poly_sub(poly_var(VAR_X), poly_const(x))/
-deposit, row|deposit.c|s/out\[d.size - 1 - s\]\[m\] =/out[s][m] =/
+deposit, row|deposit.c|s/, s = d->size - 1 - r;/, s = r - 1;/;s/const int s = d->size - 1 - r;/const int s = r - 1;/
 deposit, sign of an odd part|deposit.c|s/: dag_sub(dag, even, odd);/: dag_add(dag, even, odd);/
 deposit, snapped constant|deposit.c|s/b = rat_sub(in_units(after, d->unit), a)/b = rat_sub(after, a)/
 deposit, swapped heights|deposit.c|s/start = dag_choose(dag, run, v0, v1), end = dag_choose(dag, run, v1, v0)/start = dag_choose(dag, run, v1, v0), end = dag_choose(dag, run, v0, v1)/
