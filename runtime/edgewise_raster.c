@@ -439,6 +439,16 @@ EW_SWEEP(floats, float, (float)sum * image->unit)
 EW_SWEEP(bytes, unsigned char, ew_raster_byte(sum))
 #undef EW_SWEEP
 
+/* Where the columns end, from column i on, that were all touched or all not. */
+EW_INLINE int ew_raster_run(const ew_raster_image *image, uint64_t touched, int i)
+{
+	const uint64_t first = touched >> (i >> image->block) & 1;
+	int end = ((i >> image->block) + 1) << image->block;
+	while (end < image->width && (touched >> (end >> image->block) & 1) == first)
+		end += 1 << image->block;
+	return end < image->width ? end : image->width;
+}
+
 /* The beginning of a row of pixels; size is less than 64. */
 EW_INLINE void ew_raster_put(void *to, const void *from, size_t size)
 {
