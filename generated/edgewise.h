@@ -439,13 +439,14 @@ float ew_coveragef(const float *x, const float *y, size_t n, float u0, float u1,
  * 1/2) over the region inside all rings, weighted by winding; ring i has the vertices offsets[i]
  * .. offsets[i+1] - 1. Pixel (i,j) has its centre at (i + 1/2, j + 1/2), y grows with j, unit: a
  * pixel. Every pixel of the image is written. The region may leave the image on any side. Exact
- * up to rounding: at most 2e-6 for 1000 edges and filters whose values are around 1; a pixel
- * that no edge comes near is exactly the winding number (times the filter's integral). Reversing
- * all rings negates the image, moving them by whole pixels moves it, bit for bit. row_stride
- * counts floats and may be negative. EW_BAD_IMAGE: negative size, |row_stride| < width, NULL;
- * EW_BAD_OFFSETS: negative or decreasing; EW_BAD_COORDINATE: NaN, infinity, or beyond 2^30;
- * EW_NO_MEMORY: EW_MALLOC, which may be defined when the runtime is compiled, returned NULL.
- * Then no pixel is touched. Source: Green's theorem. */
+ * up to rounding: at most 2e-6 for 1000 edges, 1e-5 for 100000, and filters whose values are
+ * around 1; a pixel that no edge comes near is exactly the winding number (times the filter's
+ * integral), which must be below 256. Reversing all rings negates the image, moving them by
+ * whole pixels moves it, bit for bit. row_stride counts floats and may be negative.
+ * EW_BAD_IMAGE: negative size, |row_stride| < width, NULL; EW_BAD_OFFSETS: negative or
+ * decreasing; EW_BAD_COORDINATE: NaN, infinity, or beyond 2^30; EW_NO_MEMORY: EW_MALLOC, which
+ * may be defined when the runtime is compiled, returned NULL. Then no pixel is touched. Source:
+ * Green's theorem. */
 int ew_raster(const ew_filter *filter, const double *x, const double *y, const int32_t *offsets,
 	size_t rings, float *pixels, int width, int height, ptrdiff_t row_stride);
 int ew_rasterf(const ew_filter *filter, const float *x, const float *y, const int32_t *offsets,

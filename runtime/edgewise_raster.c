@@ -418,27 +418,6 @@ EW_INLINE unsigned char ew_raster_byte(int32_t sum)
 	return (unsigned char)((size * 255 + EW_ONE / 2) >> EW_GRID);
 }
 
-#define EW_SWEEP(stem, type, value) \
-static void ew_raster_##stem##_scalar(const ew_raster_image *image, type *pixels, int rows, \
-	ptrdiff_t stride) \
-{ \
-	for (int i = 0; i < image->width; ++i) { \
-		int32_t *from = image->sum + image->size + i, sum = 0; \
-		for (size_t j = 0; j < image->above; ++j, from += image->stride) \
-			ew_raster_add(&sum, *from); \
-		for (int j = 0; j < rows; ++j, from += image->stride) { \
-			ew_raster_add(&sum, *from); \
-			if (image->touched) \
-				*from = 0; \
-			pixels[j * stride + i] = value; \
-		} \
-		image->sum[image->size + i] = sum; \
-	} \
-}
-EW_SWEEP(floats, float, (float)sum * image->unit)
-EW_SWEEP(bytes, unsigned char, ew_raster_byte(sum))
-#undef EW_SWEEP
-
 /* Where the columns end, from column i on, that were all touched or all not. */
 EW_INLINE int ew_raster_run(const ew_raster_image *image, uint64_t touched, int i)
 {
@@ -448,6 +427,45 @@ EW_INLINE int ew_raster_run(const ew_raster_image *image, uint64_t touched, int 
 		end += 1 << image->block;
 	return end < image->width ? end : image->width;
 }
+
+/* Row by row, the sums in the first row of the difference image; what nothing touched is what stands
+ * above. */
+#define EW_SWEEP(stem, type, value) \
+static void ew_raster_##stem##_scalar(const ew_raster_image *image, type *pixels, int rows, \
+	ptrdiff_t stride) \
+{ \
+	int32_t *const carry = image->sum + image->size, *from = carry; \
+	for (size_t j = 1; j < image->above; ++j) { \
+		from += image->stride; \
+		for (int i = 0; i < image->width; ++i) { \
+			ew_raster_add(carry + i, from[i]); \
+			from[i] = 0; \
+		} \
+	} \
+	for (int j = 0; j < rows; ++j, pixels += stride) { \
+		const uint64_t touched = j && image->touched \
+			? image->touched[image->above + (size_t)j] : ~(uint64_t)0; \
+		from += image->stride; \
+		for (int i = 0, end; i < image->width; i = end) { \
+			end = ew_raster_run(image, touched, i); \
+			if (!(touched >> (i >> image->block) & 1)) { \
+				memcpy(pixels + i, pixels + i - stride, \
+					(size_t)(end - i) * sizeof *pixels); \
+				continue; \
+			} \
+			for (int k = i; k < end; ++k) { \
+				ew_raster_add(carry + k, from[k]); \
+				from[k] = 0; \
+				pixels[k] = value(carry[k]); \
+			} \
+		} \
+	} \
+}
+#define EW_FLOAT(sum) (float)(sum) * image->unit
+EW_SWEEP(floats, float, EW_FLOAT)
+EW_SWEEP(bytes, unsigned char, ew_raster_byte)
+#undef EW_SWEEP
+#undef EW_FLOAT
 
 /* The beginning of a row of pixels; size is less than 64. */
 EW_INLINE void ew_raster_put(void *to, const void *from, size_t size)
