@@ -334,7 +334,7 @@ void check_free(const char *option, const char *name)
 {
 	static const char *const families[] = {
 		"line_", "quad_", "conic_", "cubic_", "path_", "radius_", "ring_", "filter_",
-		"deposit_", "cpu_", "moments_", "ew_", "edgewise"
+		"raster_", "deposit_", "cpu_", "moments_", "ew_", "edgewise"
 	};
 	int taken = is_listed(LIBRARY, name) || is_listed(LIBRARY, name_stem(name))
 		|| is_monomial_name(name);

@@ -349,7 +349,7 @@ small_disk() {
 		--depfile "$small/absent/d"
 	diff -r d kept
 }
-if mount -t tmpfs -o size=256k tmpfs "$work/small" 2>/dev/null; then
+if mount -t tmpfs -o size=512k tmpfs "$work/small" 2>/dev/null; then
 	check small_disk
 	umount "$work/small"
 else
