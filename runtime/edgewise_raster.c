@@ -467,6 +467,7 @@ EW_SWEEP(bytes, unsigned char, ew_raster_byte)
 #undef EW_SWEEP
 #undef EW_FLOAT
 
+#if EW_BUILD_AVX2 || EW_BUILD_AVX512 || EW_BUILD_NEON
 /* The beginning of a row of pixels; size is less than 64. */
 EW_INLINE void ew_raster_put(void *to, const void *from, size_t size)
 {
@@ -486,6 +487,7 @@ EW_INLINE void ew_raster_put(void *to, const void *from, size_t size)
 	EW_PUT(1)
 #undef EW_PUT
 }
+#endif
 
 /* ---- filters whose knots are not a pixel apart ---- */
 

@@ -28,6 +28,7 @@ sdk() {
 		extern "C" {
 		#endif
 		double fabs(double), sqrt(double), fma(double, double, double);
+		double floor(double), ceil(double);
 		float fabsf(float), sqrtf(float), fmaf(float, float, float);
 		double frexp(double, int *), ldexp(double, int);
 		float ldexpf(float, int), nextafterf(float, float);
@@ -38,12 +39,24 @@ sdk() {
 		#define INFINITY ((float)(1e300 * 1e300))
 		#define NAN ((float)(INFINITY * 0.0F))
 	END
+	cat >"$work/include/stdlib.h" <<-'END'
+		#include <stddef.h>
+		#ifdef __cplusplus
+		extern "C" {
+		#endif
+		void *malloc(size_t);
+		void free(void *);
+		#ifdef __cplusplus
+		}
+		#endif
+	END
 	cat >"$work/include/string.h" <<-'END'
 		#include <stddef.h>
 		#ifdef __cplusplus
 		extern "C" {
 		#endif
 		void *memcpy(void *, const void *, size_t), *memset(void *, int, size_t);
+		int strcmp(const char *, const char *);
 		#ifdef __cplusplus
 		}
 		#endif
