@@ -21,9 +21,11 @@ Residue residue_subtract(Residue a, Residue b)
 	return residue_add(a, PRIME - b);
 }
 
+/* 2^61 is 1 modulo the prime. */
 Residue residue_multiply(Residue a, Residue b)
 {
-	return (Residue)((Wide)a * b % PRIME);
+	const Wide product = (Wide)a * b;
+	return residue_add((Residue)(product & PRIME), (Residue)(product >> 61));
 }
 
 Residue residue_power(Residue a, uint64_t exponent)
@@ -46,7 +48,7 @@ Residue residue_of(Rat a)
 {
 	Wide size = (Wide)(a.num < 0 ? -a.num : a.num);
 	Residue num = (Residue)(size % PRIME), den = (Residue)((Wide)a.den % PRIME);
-	Residue value = residue_multiply(num, residue_inverse(den));
+	Residue value = den == 1 ? num : residue_multiply(num, residue_inverse(den));
 	return a.num < 0 ? residue_subtract(0, value) : value;
 }
 
