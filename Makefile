@@ -15,7 +15,7 @@
 CC     ?= cc
 CFLAGS ?= -O2
 B      ?= build
-DEGREE := 8
+REQUEST := --max-degree 8
 STRICT := -Wall -Wextra -Wpedantic -Wconversion -Wshadow
 ifdef SAN
 SANITIZE := -fsanitize=address,undefined -fno-sanitize-recover=all
@@ -41,7 +41,15 @@ LIB     := $(B)/libedgewise.a
 SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
 MATH    := -lmpfr -lgmp -lm
 
-.PHONY: all library objects generated glyphs glyphs-if-freetype render render-if-libraries sheet \
+# All cores, unless -j says how many; goals one after the other, as they are named.
+ifeq ($(MAKELEVEL)$(filter -j%,$(MAKEFLAGS)),0)
+MAKEFLAGS += -j$(shell nproc 2>/dev/null || echo 1)
+endif
+ifneq ($(word 2,$(MAKECMDGOALS)),)
+.NOTPARALLEL:
+endif
+
+.PHONY: all library archive generated glyphs glyphs-if-freetype render render-if-libraries sheet \
         plots filters test test-cross deps bench deps-bench layers accept accept-hashes clean
 .DELETE_ON_ERROR:
 
@@ -74,39 +82,40 @@ $(B)/gen: $(GEN_OBJ) $(B)/obj/embedded_runtime.o $(B)/obj/embedded_filters.o
 # ---- emit, and build the library from what was emitted ----
 
 $(B)/emitted.stamp: $(B)/gen
-	$(B)/gen --max-degree $(DEGREE) --out $(B)/emitted
+	$(B)/gen $(REQUEST) --out $(B)/emitted
 	@touch $@
 
-library: $(B)/emitted.stamp
-	@$(MAKE) --no-print-directory objects
+library: $(LIB)
 
-objects: $(LIB)
+$(LIB): $(B)/emitted.stamp
+	@$(MAKE) --no-print-directory archive
 
-$(LIB): $(SOURCES:$(B)/emitted/%.c=$(B)/lib/%.o)
-	@rm -f $@
-	ar rcs $@ $^
+# Which files there are is known once they are emitted.
+archive: $(SOURCES:$(B)/emitted/%.c=$(B)/lib/%.o)
+	@rm -f $(LIB)
+	ar rcs $(LIB) $^
 
 $(B)/lib/%.o: $(B)/emitted/%.c $(wildcard $(B)/emitted/*.h) | $(B)/lib
 	$(COMPILE) -std=c99 -c -o $@ $<
 
 generated: $(B)/gen
-	$(B)/gen --max-degree $(DEGREE) --no-runtime --out generated
+	$(B)/gen $(REQUEST) --no-runtime --out generated
 
 # ---- examples and bench ----
 
-$(B)/shapes: examples/shapes.c library
+$(B)/shapes: examples/shapes.c $(LIB)
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
 
 # Where pkg-config does not know FreeType, it may still stand in its usual place.
 FREETYPE = $(or $(shell pkg-config --cflags --libs freetype2 2>/dev/null), \
            -I/usr/include/freetype2 -lfreetype)
 
-$(B)/glyphs: examples/glyphs.c examples/utf8.h library
+$(B)/glyphs: examples/glyphs.c examples/utf8.h $(LIB)
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) $(FREETYPE) -lm
 
 glyphs: $(B)/glyphs
 
-glyphs-if-freetype:
+glyphs-if-freetype: $(LIB)
 	@if echo '#include <ft2build.h>' | $(CC) -x c -fsyntax-only $(FREETYPE) - 2>/dev/null; then \
 		$(MAKE) --no-print-directory glyphs; \
 	else \
@@ -122,7 +131,7 @@ KNOWN_FILTERS = $$(sed -n 's/^extern const ew_filter ew_filter_\(.*\);/X(\1)/p' 
 RENDER_BUILD = $(COMPILE) -std=c11 "-DRENDER_FILTERS(X)=$(call KNOWN_FILTERS,$1)" -I$1 -o $@ \
                $(RENDER) $2 $(LDFLAGS) $(FREETYPE) $(PNG) -lm
 
-$(B)/render: $(RENDER) examples/render/render.h examples/utf8.h library
+$(B)/render: $(RENDER) examples/render/render.h examples/utf8.h $(LIB)
 	$(call RENDER_BUILD,$(B)/emitted,$(LIB))
 
 render: $(B)/render
@@ -130,7 +139,7 @@ render: $(B)/render
 sheet: $(B)/render
 	$(B)/render sheet examples/render/sheet.png
 
-render-if-libraries:
+render-if-libraries: $(LIB)
 	@if printf '#include <ft2build.h>\n#include <stdio.h>\n#include <png.h>\n' | \
 		$(CC) -x c -fsyntax-only $(FREETYPE) $(PNG) - 2>/dev/null; then \
 		$(MAKE) --no-print-directory render; \
@@ -247,8 +256,8 @@ $(eval $(call peer_rule,cairo,peer_cairo.c,$(PEER_C),cairo/cairo.h,-lcairo))
 $(eval $(call peer_rule,AGG,peer_agg.cpp,$(PEER_CXX),agg2/agg_basics.h,-lagg -lstdc++))
 $(eval $(call peer_rule,stb,peer_stb.c,$(PEER_C),stb/stb_truetype.h,))
 
-$(B)/bench: $(BENCH_OBJECTS) $(BENCH_PEERS:=.o) $(BENCH_EMITS:%=$(B)/bench.%/kernels.a) library
-	$(COMPILE) -o $@ $(filter %.o %.a,$^) $(LIB) $(LDFLAGS) $$(cat $(BENCH_PEERS:=.link)) -lm
+$(B)/bench: $(BENCH_OBJECTS) $(BENCH_PEERS:=.o) $(BENCH_EMITS:%=$(B)/bench.%/kernels.a) $(LIB)
+	$(COMPILE) -o $@ $^ $(LDFLAGS) $$(cat $(BENCH_PEERS:=.link)) -lm
 
 bench: $(B)/bench
 	@$(B)/bench $(BENCH)
@@ -286,64 +295,66 @@ $(B)/monomials.stamp: $(B)/gen
 # Filters of the tables in tests/filter_list.h, by the same sources as the built-in ones.
 FILTER_FILES := $(wildcard tests/filters/*.filter)
 
-$(B)/filters.stamp: $(B)/gen $(FILTER_FILES)
+$(B)/custom.stamp: $(B)/gen $(FILTER_FILES)
 	$(B)/gen --max-degree 1 --families moments,coverage $(FILTER_FILES:%=--filter %) \
-		--quiet --out $(B)/filters
+		--quiet --out $(B)/custom
 	@touch $@
 
-$(B)/filters/filters.a: $(B)/filters.stamp
+$(B)/custom/custom.a: $(B)/custom.stamp
 	@cd $(@D) && rm -f $(@F) *.o && for f in *.c; do \
 		$(COMPILE) -std=c99 -c -o "$${f%.c}.o" "$$f" || exit 1; done && ar rcs $(@F) *.o
 
-$(CUSTOM_TESTS:%=$(B)/tests/custom/%): $(B)/tests/custom/%: tests/%.c tests/reference.c \
-		tests/window_reference.c tests/raster_reference.c $(wildcard tests/*.h) \
-		$(B)/filters/filters.a | $(B)/tests
+# What tests share, compiled once.
+REFERENCE = $(B)/tests/reference.o
+
+$(B)/tests/%.o: tests/%.c $(wildcard tests/*.h) | $(B)/tests
+	$(TEST_BUILD) -c -o $@ $<
+
+$(CUSTOM_TESTS:%=$(B)/tests/custom/%): $(B)/tests/custom/%: tests/%.c $(REFERENCE) \
+		$(B)/tests/window_reference.o $(B)/tests/raster_reference.o $(wildcard tests/*.h) \
+		$(B)/custom/custom.a
 	@mkdir -p $(@D)
-	$(TEST_BUILD) -DCUSTOM_FILTERS -I$(B)/filters -o $@ $(filter %.c %.a,$^) $(LDFLAGS) $(MATH)
+	$(TEST_BUILD) -DCUSTOM_FILTERS -I$(B)/custom -o $@ $(filter %.c %.o %.a,$^) $(LDFLAGS) \
+		$(MATH)
 
 $(GEN_TESTS:%=$(B)/tests/%): $(B)/tests/%: tests/%.c tests/check.h \
 		$(filter-out %/main.o %/deliver.o %/bundle.o,$(GEN_OBJ)) \
 		$(B)/obj/embedded_filters.o | $(B)/tests
 	$(TEST_BUILD) -o $@ $(filter %.c %.o,$^) $(LDFLAGS) $(MATH)
 
-$(B)/tests/polynomials: tests/polynomials.c tests/reference.c $(B)/polynomials.stamp | $(B)/tests
-	$(TEST_BUILD) -I$(B)/polynomials -o $@ $(filter %.c,$^) $(B)/polynomials/*.c $(LDFLAGS) \
-		$(MATH)
+$(B)/tests/polynomials: tests/polynomials.c $(REFERENCE) $(B)/polynomials.stamp
+	$(TEST_BUILD) -I$(B)/polynomials -o $@ $(filter %.c %.o,$^) $(B)/polynomials/*.c \
+		$(LDFLAGS) $(MATH)
 
-$(B)/tests/distance: tests/distance_reference.c
-
-$(CURVE_TESTS:%=$(B)/tests/%): tests/curve_reference.c
-
-$(WINDOW_TESTS:%=$(B)/tests/%): tests/window_reference.c tests/window_area.c
-
-$(RASTER_TESTS:%=$(B)/tests/%): tests/window_reference.c tests/raster_reference.c
-
-$(B)/tests/monomials: tests/monomials.c tests/reference.c $(B)/monomials.stamp | $(B)/tests
+$(B)/tests/monomials: tests/monomials.c $(REFERENCE) $(B)/monomials.stamp
 	$(TEST_BUILD) -I$(B)/monomials -DMANIFEST='"$(B)/monomials/edgewise_manifest.json"' -o $@ \
-		$(filter %.c,$^) $(B)/monomials/edgewise_line*.c $(LDFLAGS) $(MATH)
+		$(filter %.c %.o,$^) $(B)/monomials/edgewise_line*.c $(LDFLAGS) $(MATH)
 
-$(B)/tests/%: tests/%.c tests/reference.c $(wildcard tests/*.h) library | $(B)/tests
-	$(TEST_BUILD) -I$(B)/emitted -o $@ $(filter %.c,$^) $(LIB) $(LDFLAGS) $(MATH)
+$(B)/tests/distance: $(B)/tests/distance_reference.o
+
+$(CURVE_TESTS:%=$(B)/tests/%): $(B)/tests/curve_reference.o
+
+$(WINDOW_TESTS:%=$(B)/tests/%): $(B)/tests/window_reference.o $(B)/tests/window_area.o
+
+$(RASTER_TESTS:%=$(B)/tests/%): $(B)/tests/window_reference.o $(B)/tests/raster_reference.o
+
+$(B)/tests/%: tests/%.c $(REFERENCE) $(wildcard tests/*.h) $(LIB)
+	$(TEST_BUILD) -I$(B)/emitted -o $@ $(filter %.c %.o,$^) $(LIB) $(LDFLAGS) $(MATH)
 
 test: $(PROGRAMS) $(B)/shapes $(B)/plot glyphs-if-freetype render-if-libraries
 	@if [ -x $(B)/render ]; then $(MAKE) --no-print-directory filters; fi
 	@sh tests/run.sh $(B)/tests/logs \
-		'layers: sh tests/layers.sh $(B) "$(GEN)"' \
-		$(foreach t,$(GEN_TESTS),'$(t): $(B)/tests/$(t)') \
-		'readme: sh tests/readme.sh $(B)' \
-		'golden: sh tests/golden.sh $(B)' 'counts: sh tests/counts.sh $(B)' \
-		'lines: $(B)/tests/lines' \
-		$(foreach t,$(RING_TESTS) $(CURVE_TESTS) $(WINDOW_TESTS) $(RASTER_TESTS), \
+		'matrix: sh tests/matrix.sh $(B)' \
+		'command-line: sh tests/cli.sh $(B)/gen' \
+		$(foreach t,msvc same_output mutation,'$(t): sh tests/$(t).sh $(B)') \
+		$(foreach t,fuzz filter_fuzz render,'$(t): sh tests/$(t).sh $(B)') \
+		$(foreach t,$(RASTER_TESTS) $(RING_TESTS) $(CURVE_TESTS) $(WINDOW_TESTS), \
 			'$(t): $(B)/tests/$(t)') \
 		$(foreach t,$(CUSTOM_TESTS),'custom-$(t): $(B)/tests/custom/$(t)') \
-		'fuzz: sh tests/fuzz.sh $(B)' 'filter-fuzz: sh tests/filter_fuzz.sh $(B)' \
-		'polynomials: $(B)/tests/polynomials' 'monomials: $(B)/tests/monomials' \
+		$(foreach t,$(GEN_TESTS) lines polynomials monomials,'$(t): $(B)/tests/$(t)') \
+		$(foreach t,glyphs counts golden readme,'$(t): sh tests/$(t).sh $(B)') \
 		'shapes: $(B)/shapes --exact examples/data/countries.txt | $(B)/tests/shapes' \
-		'glyphs: sh tests/glyphs.sh $(B)' 'render: sh tests/render.sh $(B)' \
-		'command-line: sh tests/cli.sh $(B)/gen' \
-		'same-output: sh tests/same_output.sh $(B)' \
-		'mutation: sh tests/mutation.sh $(B)' 'matrix: sh tests/matrix.sh $(B)' \
-		'msvc: sh tests/msvc.sh $(B)'
+		'layers: sh tests/layers.sh $(B) "$(GEN)"'
 
 # The emitted library on other machines, by cross compilers and qemu, against tests/hashes.txt.
 test-cross: library

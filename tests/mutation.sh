@@ -4,12 +4,12 @@
 # (a) One coefficient, sign or index in gen: the proof must stop gen before it writes a file.
 # The schemes, fusion and schedule are covered one by one, and Green's theorem itself, which
 # the schemes with formulas of their own contradict; so are windows, the cells of filters, whose
-# integrals the proof takes from the filter's own pieces, and deposits. A change that only spoils the mirrored order
-# of evaluation keeps every value and must fall to the reversal proof.
+# integrals the proof takes from the filter's own pieces, and deposits. A change that only spoils
+# the mirrored order of evaluation keeps every value and must fall to the reversal proof.
 # (b) Some of gen that has no meaning over the rationals, where rounding errors are 0 and an
 # absolute value is a matter of signs: a small library that it emits must fail its tests.
-# (c) The same in emitted files and in the runtime, where no proof can see it: the tests
-# must name the broken function.
+# (c) The same in the emitted files of BUILD and in the runtime, where no proof can see it: the
+# tests, which are suites that pass unharmed, must name the broken function.
 # A mutation whose pattern is not found counts as a failure, so that the list keeps up with the
 # sources.
 set -u
@@ -122,156 +122,140 @@ avx2: a ring that is left out|edgewise_batches_template.h|edgewise_rings.c|s/lef
 avx2: finish of rings side by side|edgewise_finish_avx2.c||/moments_2_finish_avx2/,/^}/s/, sum4);/, sum3);/|batches|mixed sizes between guard pages, double, avx2
 END
 
-# in a copy of the sources, where make rebuilds what the mutation touches
-build_gen() { make -s -C "$1" B=build CFLAGS=-O1 LDFLAGS= build/gen; }
+tree=$work/tree
 
-compile() { ${CC:-cc} -std=gnu11 -O1 -ffp-contract=off -I"$tests" "$@"; }
-
-# mutate_gen TREE NAME FILE SCRIPT TEST PART: with TEST, that must tell, else the proof.
-mutate_gen() {
-	file=$1/gen/$3
-	cp "$file" "$1/original"
-	sed "$4" "$1/original" >"$file"
-	rm -rf "$1/out"
-	if cmp -s "$file" "$1/original"; then
-		verdict "$2" "nothing to mutate in gen/$3"
-	elif ! build_gen "$1" >"$1/log" 2>&1; then
-		verdict "$2" "does not compile: $(grep -m 1 error "$1/log")"
-	elif [ "${5:-}" ]; then
-		verdict "$2" "$(untested "$1" "$5" "$6")"
-	else
-		verdict "$2" "$(unproven "$1" "$2")"
-	fi
-	cp "$1/original" "$file"
+# A copy of the sources and of gen's objects, where make rebuilds what a mutation touches.
+make_tree() {
+	mkdir -p "$tree/build" &&
+		cp -Rp "$root/gen" "$root/runtime" "$root/tests" "$root/Makefile" "$tree" &&
+		cp -Rp "$build/obj" "$build/embed" "$build/gen" "$tree/build"
 }
 
-# TREE NAME: what is wrong if the proof does not stop gen.
+# TARGET: at the level at which compilers are fastest
+make_it() {
+	make -s -j1 -C "$tree" B=build CFLAGS=-O0 REQUEST='--max-degree 2 --targets fma --quiet' \
+		${sanitize:+SAN=1} "build/$1" >"$work/log" 2>&1
+}
+
+# mutate_gen NAME FILE SCRIPT TEST WORDS: with TEST, that must tell, else the proof. Source and object
+# come back with their times.
+mutate_gen() {
+	file=$tree/gen/$2 object=$tree/build/obj/${2%.c}.o
+	mv "$file" "$work/original.c"
+	mv "$object" "$work/original.o"
+	sed "$3" "$work/original.c" >"$file"
+	if cmp -s "$file" "$work/original.c"; then
+		verdict "$1" "nothing to mutate in gen/$2"
+	elif ! make_it gen; then
+		verdict "$1" "does not compile: $(grep -m 1 error "$work/log")"
+	elif [ "${4:-}" ]; then
+		verdict "$1" "$(untested "$4" "$5")"
+	else
+		verdict "$1" "$(unproven "$1")"
+	fi
+	mv "$work/original.c" "$file"
+	mv "$work/original.o" "$object"
+}
+
+# NAME: what is wrong if the proof does not stop gen.
 unproven() {
-	if "$1/build/gen" --max-degree 6 --out "$1/out" >/dev/null 2>"$1/log"; then
+	if "$tree/build/gen" --max-degree 6 --out "$work/out" >/dev/null 2>"$work/log"; then
 		echo "gen did not notice"
-	elif ! grep -q 'internal error, nothing was written' "$1/log"; then
-		echo "not the proof: $(head -n 1 "$1/log")"
-	elif [ -e "$1/out" ]; then
+	elif ! grep -q 'internal error, nothing was written' "$work/log"; then
+		echo "not the proof: $(head -n 1 "$work/log")"
+	elif [ -e "$work/out" ]; then
 		echo "files were written"
 	else
-		case ${2%%,*} in
+		case ${1%%,*} in
 		reversal) words='does not negate .* bit for bit' ;;
 		coverage | filter | cells | deposit) words='the proof failed' ;;
 		*) words= ;;
 		esac
-		grep -q "$words" "$1/log" || echo "not '$words': $(head -n 1 "$1/log")"
+		grep -q "$words" "$work/log" || echo "not '$words': $(head -n 1 "$work/log")"
 	fi
+	rm -rf "$work/out"
 }
 
-# TEST: what it needs besides reference.c
-references() {
-	case $1 in
-	distance) echo "$tests/distance_reference.c" ;;
-	curves | conics | paths) echo "$tests/curve_reference.c" ;;
-	esac
-}
-
-# TREE TEST PART: what is wrong if the test passes.
+# TEST WORDS: what is wrong if the test passes.
 untested() {
-	if ! "$1/build/gen" --quiet --max-degree 2 --targets fma --out "$1/out" >"$1/log" 2>&1; then
-		echo "the proof noticed: $(head -n 1 "$1/log")"
-	elif ! compile -I"$1/out" -o "$1/test" "$tests/$2.c" $(references "$2") \
-		"$work/reference.o" "$1"/out/*.c \
-		-lmpfr -lgmp -lm >"$1/log" 2>&1; then
-		echo "does not compile: $(grep -m 1 error "$1/log")"
+	if ! make_it emitted.stamp; then
+		echo "the proof noticed: $(head -n 1 "$work/log")"
+	elif ! make_it "tests/$1"; then
+		echo "does not compile: $(grep -m 1 error "$work/log")"
 	else
-		first_failure "$1/test" "$3"
+		first_failure "$tree/build/tests/$1" "$2"
 	fi
 }
 
-# PROGRAM PART: the first failure if it has not PART in it.
+# PROGRAM WORDS: the first failure if it has not these words; nobody waits for what comes after it.
 first_failure() {
-	first=$("$1" 2>&1 | awk '/^not ok/ { print; exit }')
+	"$1" >"$work/pipe" 2>&1 &
+	tested=$!
+	first=$(grep -m 1 '^not ok' "$work/pipe")
+	kill $tested 2>/dev/null
+	wait $tested 2>/dev/null
 	case $first in
 	*"$2"*) ;;
 	*) echo "the test said: ${first:-nothing}" ;;
 	esac
 }
 
-# worker REMAINDER: every second mutation of gen, in a tree of its own
-worker() {
-	tree=$work/tree$1
-	mkdir "$tree" && cp -r "$root/gen" "$root/runtime" "$root/Makefile" "$tree" || exit 1
-	if ! { build_gen "$tree" && "$tree/build/gen" --quiet --max-degree 6 --out "$tree/out"; } \
-		>"$tree/log" 2>&1; then
-		verdict "gen without mutation" "$(head -n 1 "$tree/log")"
-		return
-	fi
-	cat "$work/proof.list" "$rounding" | awk -v r="$1" 'NR % 2 == r' >"$tree/list"
-	while IFS='|' read -r name file script test part; do
-		mutate_gen "$tree" "$name" "$file" "$script" "$test" "$part"
-	done <"$tree/list"
+# LIST of mutations of gen
+test_gen() {
+	while IFS='|' read -r name file script test words; do
+		mutate_gen "$name" "$file" "$script" "$test" "$words"
+	done <"$1"
 }
 
-# mutate_emitted NAME FILE SOURCE SCRIPT TEST PART
+compile() {
+	${CC:-cc} -std=gnu11 -O1 -ffp-contract=off $sanitize -I"$tests" \
+		-I"$build/emitted" "$@"
+}
+
+# mutate_emitted NAME FILE SOURCE SCRIPT TEST WORDS: the mutated object stands before the library,
+# where the linker finds its functions first.
 mutate_emitted() {
-	source=${3:-$2} object=$work/lib/${source%.c}.o
+	source=${3:-$2}
 	rm -rf "$work/mutated"
 	mkdir "$work/mutated"
-	cp "$work/emitted/$source" "$work/mutated"
-	sed "$4" "$work/emitted/$2" >"$work/mutated/$2"
-	if cmp -s "$work/mutated/$2" "$work/emitted/$2"; then
+	cp "$build/emitted/$source" "$work/mutated"
+	sed "$4" "$build/emitted/$2" >"$work/mutated/$2"
+	[ -f "$work/$5.o" ] || compile -c -o "$work/$5.o" "$tests/$5.c"
+	if cmp -s "$work/mutated/$2" "$build/emitted/$2"; then
 		verdict "$1" "nothing to mutate in $2"
-	elif ! compile -I"$work/emitted" -c -o "$work/mutated.o" "$work/mutated/$source" \
-		>"$work/log" 2>&1; then
+	elif ! compile -o "$work/$5" "$work/$5.o" "$build/tests/reference.o" \
+		"$work/mutated/$source" "$build/libedgewise.a" -lmpfr -lgmp -lm >"$work/log" 2>&1; then
 		verdict "$1" "does not compile: $(grep -m 1 error "$work/log")"
 	else
-		mv "$object" "$work/original.o"
-		cp "$work/mutated.o" "$object"
-		link "$5"
-		mv "$work/original.o" "$object"
 		verdict "$1" "$(first_failure "$work/$5" "$6")"
 	fi
 }
 
-link() { compile -o "$work/$1" "$work/$1.o" "$work/reference.o" "$work"/lib/*.o -lmpfr -lgmp -lm; }
-
-# Emits, compiles all that mutations of emitted files need, and runs the tests unharmed.
-prepare() {
-	mkdir "$work/lib"
-	"$build/gen" --quiet --max-degree 6 --out "$work/emitted"
-	for file in "$work"/emitted/*.c; do
-		compile -c -o "$work/lib/$(basename "$file" .c).o" "$file" ||
-			verdict "$file" "does not compile"
-	done
-	for test in lines rings lanes kernels batches bounded compensated; do
-		compile -I"$work/emitted" -c -o "$work/$test.o" "$tests/$test.c" && link $test
-		most=1000
-		[ $test = batches ] || [ $test = bounded ] && most=8      # the rest takes long
-		"$work/$test" 2>&1 | head -n $most >"$work/$test.log"
-		! problem=$(grep -m 1 '^not ok' "$work/$test.log") ||
-			verdict "$test without mutation" "$problem"
-	done
-}
-
 test_emitted() {
-	while IFS='|' read -r name file source script test part; do
+	"$build/tests/lanes" >"$work/lanes.log"
+	while IFS='|' read -r name file source script test words; do
 		target=$(expr "$name" : '\([a-z0-9]*\): ')
 		if [ "$target" ] && ! grep -q "$target" "$work/lanes.log"; then
 			skip "$name" "not on this CPU"
 		else
-			mutate_emitted "$name" "$file" "$source" "$script" "$test" "$part"
+			mutate_emitted "$name" "$file" "$source" "$script" "$test" "$words"
 		fi
 	done <"$work/emitted.list"
 }
 
-rounding=/dev/null
-if echo '#include <mpfr.h>' | ${CC:-cc} -x c -fsyntax-only - 2>/dev/null; then
-	rounding=$work/rounding.list
-	compile -c -o "$work/reference.o" "$tests/reference.c"
-	( prepare; test_emitted ) >"$work/out2" &
-else
-	skip "rounding and emitted files" "libmpfr-dev is not installed" >"$work/out2"
+mkfifo "$work/pipe" || exit 1
+if ! { make_tree && "$tree/build/gen" --quiet --max-degree 6 --out "$work/out"; } >"$work/log" 2>&1
+then
+	verdict "gen without mutation" "$(head -n 1 "$work/log")"
+	finish
+	exit
 fi
-( worker 0 ) >"$work/out0" &
-( worker 1 ) >"$work/out1"
-wait
-for part in 0 1 2; do
-	replay "$work/out$part"
-done
+rm -r "$work/out"
+test_gen "$work/proof.list"
+if echo '#include <mpfr.h>' | ${CC:-cc} -x c -fsyntax-only - 2>/dev/null; then
+	test_gen "$work/rounding.list"
+	test_emitted
+else
+	skip "rounding and emitted files" "libmpfr-dev is not installed"
+fi
 finish

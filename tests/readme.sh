@@ -1,6 +1,6 @@
 #!/bin/sh
-# readme.sh - the program in README.md, compiled against the emitted folder, prints
-# what README.md says it prints.
+# readme.sh - the program in README.md, linked with the library, prints what README.md says it
+# prints.
 #
 #     sh tests/readme.sh BUILD
 
@@ -11,8 +11,8 @@ awk '
 	/^```$/ { after = 1; next }
 	after && /^    / { print substr($0, 5); next }
 	after && NF { exit }' "$root/README.md" >"$work/want"
-if ${CC:-cc} -I"$build/emitted" -o "$work/use" "$work/use.c" "$build"/emitted/*.c -lm \
-	2>"$work/log" &&
+if ${CC:-cc} $sanitize -I"$build/emitted" -o "$work/use" "$work/use.c" \
+	"$build/libedgewise.a" -lm 2>"$work/log" &&
 	"$work/use" >"$work/have" && [ -s "$work/want" ] &&
 	diff "$work/want" "$work/have" >>"$work/log"
 then

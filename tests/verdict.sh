@@ -1,12 +1,13 @@
 # verdict.sh - what the suites of shell share; they source it.
 #
 # $work is a folder for the suite, removed at its end; $tests and $root are this folder and that of
-# the project.
+# the project, and $sanitize is what a program needs that links with a library made with SAN=1.
 # `verdict` and `skip` say what came out of one test, `finish` says the last line of the suite.
-# Tests in a subshell, ( ... ) >FILE, are not counted there but by `replay FILE`.
+# What another program printed in that manner is counted by `replay FILE`.
 
 tests=$(cd "$(dirname "$0")" && pwd)
 root=$(dirname "$tests")
+sanitize=${SAN:+-fsanitize=address,undefined}
 unset MAKEFLAGS MFLAGS MAKELEVEL SAN
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
