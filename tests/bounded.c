@@ -13,20 +13,6 @@
  */
 #include "rings.h"
 
-enum { TARGETS = 8 };
-
-/* The targets of this machine. */
-static unsigned target_bit[TARGETS];
-static int target_count;
-
-static void list_targets(void)
-{
-	for (unsigned bit = 1; bit && target_count < TARGETS; bit <<= 1) {
-		if (ew_targets() & bit)
-			target_bit[target_count++] = bit;
-	}
-}
-
 static int bounded(const Api *api, int degree, const Ring *ring, void *out, void *bound)
 {
 	return api->bits == 24

@@ -243,21 +243,6 @@ static void set_powers(Work *w, int degree, Signs signs)
 	poly_clear(&y);
 }
 
-static unsigned long lcm_to(unsigned long last)
-{
-	unsigned long lcm = 1;
-	for (unsigned long i = 2; i <= last; i++) {
-		unsigned long a = lcm, b = i;
-		while (b) {
-			const unsigned long rest = a % b;
-			a = b;
-			b = rest;
-		}
-		lcm *= i / a;
-	}
-	return lcm;
-}
-
 /* total = lcm int_-1^1 p q dtau, of |tau|^k instead of tau^k if terms are positive */
 static void set_integral(mpz_t total, const Poly *p, const Poly *q, Signs signs, unsigned long lcm)
 {
@@ -280,7 +265,7 @@ static void set_integral(mpz_t total, const Poly *p, const Poly *q, Signs signs,
 static void add_moment(mpq_t to, const Work *w, int m, int n, Signs signs)
 {
 	const unsigned long steps = (unsigned long)(m + n + 2);
-	const unsigned long lcm = lcm_to((unsigned long)w->order * steps);
+	const unsigned long lcm = ref_lcm((unsigned long)w->order * steps);
 	mpq_t value;
 	mpq_init(value);
 	set_integral(mpq_numref(value), &w->px[m], &w->py[n], signs, lcm);

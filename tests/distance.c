@@ -67,21 +67,6 @@ static bool identical(double a, double b)
 	return memcmp(&a, &b, sizeof a) == 0;
 }
 
-/* The targets of this machine. */
-
-enum { TARGETS = 8 };
-
-static unsigned target_bit[TARGETS];
-static int target_count;
-
-static void list_targets(void)
-{
-	for (unsigned bit = 1; bit && target_count < TARGETS; bit <<= 1) {
-		if (ew_targets() & bit)
-			target_bit[target_count++] = bit;
-	}
-}
-
 /* Classes of edges. */
 
 typedef void Fill(const Api *api, double e[SIDES]);

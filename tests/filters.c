@@ -10,18 +10,7 @@
 
 #include "filters.h"
 
-enum { EDGES = 300, RINGS = 60, FREE = 40000, TARGETS = 8, MOST = 100 };
-
-static unsigned target_bit[TARGETS];
-static int target_count;
-
-static void list_targets(void)
-{
-	for (unsigned bit = 1; bit && target_count < TARGETS; bit <<= 1) {
-		if (ew_targets() & bit)
-			target_bit[target_count++] = bit;
-	}
-}
+enum { EDGES = 300, RINGS = 60, FREE = 40000, MOST = 100 };
 
 /* ---- Edges ---- */
 

@@ -233,21 +233,6 @@ static inline Image image_of(const Api *api, const RasterFilter *filter, const S
 	return image;
 }
 
-/* ---- Targets ---- */
-
-enum { TARGETS = 8 };
-
-static unsigned target_bit[TARGETS];
-static int target_count;
-
-static inline void list_targets(void)
-{
-	for (unsigned bit = 1; bit && target_count < TARGETS; bit <<= 1) {
-		if (ew_targets() & bit)
-			target_bit[target_count++] = bit;
-	}
-}
-
 /* ---- Against a reference ---- */
 
 static inline double worst_error(const Image *image, const double *want)

@@ -135,10 +135,10 @@ static void set_powers(Powers p, int degree, const mpz_t start, const mpz_t end,
 	}
 }
 
-static unsigned long lcm_to(int last)
+unsigned long ref_lcm(unsigned long last)
 {
 	unsigned long lcm = 1;
-	for (unsigned long i = 2; i <= (unsigned long)last; i++) {
+	for (unsigned long i = 2; i <= last; i++) {
 		unsigned long a = lcm, b = i;
 		while (b) {
 			const unsigned long rest = a % b;
@@ -198,7 +198,7 @@ static void set_quotient(mpq_t out, const mpz_t total, unsigned long divisor, in
 void ref_line(Ref *out, int m, int n, const double edge[4])
 {
 	const int degree = m + n;
-	const unsigned long lcm = lcm_to(degree + 1);
+	const unsigned long lcm = ref_lcm((unsigned long)degree + 1);
 	const int shift = common_shift(edge, edge + 2, 2);
 	mpz_t total;
 	Work *w = work_new();
@@ -226,7 +226,7 @@ static void add_all(mpz_t *total, Work *w, int degree, unsigned long lcm)
 void ref_ring(Ref *out, int degree, const double *x, const double *y, size_t n)
 {
 	const int count = ref_count(degree);
-	const unsigned long lcm = lcm_to(degree + 1);
+	const unsigned long lcm = ref_lcm((unsigned long)degree + 1);
 	const int shift = common_shift(x, y, n);
 	Work *w = work_new();
 	mpz_t *value = malloc(2 * (size_t)count * sizeof *value);

@@ -25,6 +25,8 @@ typedef struct {
 int ref_count(int degree);          /* monomials of degree <= degree */
 int ref_index(int m, int n);
 
+unsigned long ref_lcm(unsigned long last);    /* the least common multiple of 1, 2, ... last */
+
 Ref *ref_new(int count);            /* all 0 */
 void ref_free(Ref *refs, int count);
 

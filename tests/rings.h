@@ -260,6 +260,21 @@ static inline void ring_snap(Ring *ring, double step)
 	}
 }
 
+/* The targets of this machine. */
+
+enum { TARGETS = 8 };
+
+static unsigned target_bit[TARGETS];
+static int target_count;
+
+static inline void list_targets(void)
+{
+	for (unsigned bit = 1; bit && target_count < TARGETS; bit <<= 1) {
+		if (ew_targets() & bit)
+			target_bit[target_count++] = bit;
+	}
+}
+
 /* Runs a test for every precision under every target of this machine. */
 static inline void for_each_target(void (*test)(const Api *api, const char *target))
 {

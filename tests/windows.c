@@ -7,18 +7,7 @@
  */
 #include "windows.h"
 
-enum { CASES = 3000000, TARGETS = 8 };
-
-static unsigned target_bit[TARGETS];
-static int target_count;
-
-static void list_targets(void)
-{
-	for (unsigned bit = 1; bit && target_count < TARGETS; bit <<= 1) {
-		if (ew_targets() & bit)
-			target_bit[target_count++] = bit;
-	}
-}
+enum { CASES = 3000000 };
 
 static double random_sign(void)
 {
