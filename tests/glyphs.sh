@@ -28,11 +28,7 @@ under() {
 	replay "$work/renamed"
 }
 
-python=
-for candidate in python3 /usr/bin/python3; do
-	[ -z "$python" ] || break
-	"$candidate" -c 'import fontTools.pens.statisticsPen' 2>/dev/null && python=$candidate
-done
+python=$(python_with fontTools.pens.statisticsPen)
 
 # KIND FONT: every glyph; the outlines must have edges of that kind.
 check_font() {

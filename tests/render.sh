@@ -21,11 +21,7 @@ if [ ! -x "$render" ]; then
 	finish
 	exit
 fi
-python=
-for candidate in python3 /usr/bin/python3; do
-	[ -z "$python" ] || break
-	"$candidate" -c 'import zlib' 2>/dev/null && python=$candidate
-done
+python=$(python_with zlib)
 
 # NAME ARGUMENTS...: render must succeed without a word.
 draw() {

@@ -34,6 +34,13 @@ has() {
 	command -v "$1" >/dev/null 2>&1
 }
 
+# MODULE: a python that has it, or nothing
+python_with() {
+	for candidate in python3 /usr/bin/python3; do
+		! "$candidate" -c "import $1" 2>/dev/null || { echo "$candidate"; return; }
+	done
+}
+
 # FILE: shows the verdicts in it, and counts them.
 replay() {
 	cat "$1"
