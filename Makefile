@@ -352,7 +352,7 @@ test: $(PROGRAMS) $(B)/shapes $(B)/plot glyphs-if-freetype render-if-libraries
 			'$(t): $(B)/tests/$(t)') \
 		$(foreach t,$(CUSTOM_TESTS),'custom-$(t): $(B)/tests/custom/$(t)') \
 		$(foreach t,$(GEN_TESTS) lines polynomials monomials,'$(t): $(B)/tests/$(t)') \
-		$(foreach t,glyphs counts golden readme,'$(t): sh tests/$(t).sh $(B)') \
+		$(foreach t,glyphs counts golden readme house,'$(t): sh tests/$(t).sh $(B)') \
 		'shapes: $(B)/shapes --exact examples/data/countries.txt | $(B)/tests/shapes' \
 		'layers: sh tests/layers.sh $(B) "$(GEN)"'
 
@@ -373,12 +373,12 @@ accept: $(B)/gen
 # gmp and mpfr for the reference; the other compilers only widen the compile matrix; the cross
 # compilers and qemu are for test-cross. (gcc-multilib would remove the cross compilers.) FreeType,
 # fonts and fontTools are for examples/glyphs, libpng is for examples/render; with munkres fontTools
-# does without SciPy.
+# does without SciPy. ctags tells how long functions are.
 PACKAGES := gcc g++ clang libclang-rt-14-dev tcc make binutils libc6-dev libgmp-dev libmpfr-dev \
             gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-i686-linux-gnu \
             libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user \
             libfreetype-dev libpng-dev pkg-config fonts-dejavu-core fonts-gfs-didot \
-            python3-fonttools python3-munkres
+            python3-fonttools python3-munkres universal-ctags
 deps:
 	@if command -v apt-get >/dev/null; then \
 		run=; [ "$$(id -u)" = 0 ] || run=sudo; \

@@ -35,9 +35,10 @@ static Cross cross_of(Dag *dag, const Ref *a, const Ref *b, const Ref *size_a, c
 	return (Cross){ value, dag_add(dag, left_size, right_size) };
 }
 
-/* T = 1/2 b x a = 1/4 (a + b) x (p2 - p0), a = p1 - p0, b = p1 - p2: the one whose terms are smaller.
- * The first is good where p1 is near an end of the chord, the second where it is far away, so that
- * a and b are nearly parallel: near-semicircles. Both change sign when the curve is reversed. */
+/* T = 1/2 b x a = 1/4 (a + b) x (p2 - p0), a = p1 - p0, b = p1 - p2: the one whose terms are
+ * smaller. The first is good where p1 is near an end of the chord, the second where it is far away,
+ * so that a and b are nearly parallel: near-semicircles. Both change sign when the curve is
+ * reversed. */
 static Ref triangle(Dag *dag, const Ref *a, const Ref *b)
 {
 	Ref sum[2], chord[2], size[4][2];

@@ -2,24 +2,24 @@
  *
  * The knots of the filter lie a pixel apart and its support spans N pixels, so in a grid that is
  * shifted by the corner of the support, a piece that stays within cell (cx, cy) meets one cell of
- * the filter of each of N x N pixels. With (u, v) relative to the cell and F_q(u, t) the integral of
- * the filter over y up to t, column q, the difference of pixel row j and the one before is
+ * the filter of each of N x N pixels. With (u, v) relative to the cell and F_q(u, t) the integral
+ * of the filter over y up to t, column q, the difference of pixel row j and the one before is
  *
  *     integral of G du,   G_qs(u, v) = F_q(u, v + s + 1) - F_q(u, v + s),   s = N-1 .. -1,
  *
  * for pixel column cx - q and row cy - s; the image is the running sum down the columns. Output
- * r N + m is that of q = N-1 - m, s = N-1 - r, by the Gauss-Legendre rule that is exact for the degree,
- * but for the middle row, N/2: there it is the total of the column, from which whoever adds takes the
- * other rows. So rounding is left to a row that every piece reaches, while the first and the last one
- * are exactly 0 for a piece along the lower, or the upper, edge of the cell.
+ * r N + m is that of q = N-1 - m, s = N-1 - r, by the Gauss-Legendre rule that is exact for the
+ * degree, but for the middle row, N/2: there it is the total of the column, from which whoever adds
+ * takes the other rows. So rounding is left to a row that every piece reaches, while the first and
+ * the last one are exactly 0 for a piece along the lower, or the upper, edge of the cell.
  *
- * Below the piece all that counts is that total, P(u1) - P(u0) with P the primitive of F_q(u, above).
- * So that pixels that no edge crosses get exactly the filter's integral times the winding number,
- * totals are integers, in units of a power of two, and whoever adds rounds the rows to units: then
- * sums are exact, in any order. P is interpolated between multiples of the unit at both ends of the
- * cell, P = A + u (B + (1 - u) R(u)), which is exact there and moves it by half a unit at most; both
- * values are rounded by adding and subtracting 3 2^22, less the middle of the column, so that they
- * are small and units fine.
+ * Below the piece all that counts is that total, P(u1) - P(u0) with P the primitive of F_q(u,
+ * above). So that pixels that no edge crosses get exactly the filter's integral times the winding
+ * number, totals are integers, in units of a power of two, and whoever adds rounds the rows to
+ * units: then sums are exact, in any order. P is interpolated between multiples of the unit at both
+ * ends of the cell, P = A + u (B + (1 - u) R(u)), which is exact there and moves it by half a unit
+ * at most; both values are rounded by adding and subtracting 3 2^22, less the middle of the column,
+ * so that they are small and units fine.
  *
  * The ends are put in order first, so that the reverse piece gives exactly the negated outputs. */
 #include "gen.h"
@@ -121,7 +121,7 @@ static Ref rounded(const Deposit *d, Ref a)
 	return dag_node(d->dag, OP_ROUND, a, d->round, NONE);
 }
 
-/* R with P = A + u (B + (1 - u) R(u)), where P is `total` moved linearly to the ends A and A + B. */
+/* R with P = A + u (B + (1 - u) R(u)): P is `total` moved linearly to the ends A and A + B. */
 static Poly between(Poly total, Rat before, Rat a, Rat b)
 {
 	Rat end = rat_add(before, value_of(at_start(total, VAR_X, rat(1, 1))));
@@ -143,7 +143,7 @@ static Poly between(Poly total, Rat before, Rat a, Rat b)
 	return quotient;
 }
 
-/* Column total of column q: P(u1) - P(u0), both in units; `before` is P at the start of the column. */
+/* Column total of column q: P(u1) - P(u0), both in units; `before` is P where the column starts. */
 static Ref column_total(const Deposit *d, int q, Rat *before)
 {
 	Dag *dag = d->dag;
@@ -169,7 +169,10 @@ static Ref column_total(const Deposit *d, int q, Rat *before)
 }
 
 /* The nodes, both of a pair: [node][0 or 1], relative to the centre of the cell. */
-typedef struct { int nodes, values[LEGENDRE_MAX]; Ref at[LEGENDRE_MAX][2][2], weight[LEGENDRE_MAX]; } Nodes;
+typedef struct {
+	int nodes, values[LEGENDRE_MAX];
+	Ref at[LEGENDRE_MAX][2][2], weight[LEGENDRE_MAX];
+} Nodes;
 
 static Nodes nodes_of(const Deposit *d, int count)
 {

@@ -97,7 +97,8 @@ static const char *const X86 =
 	"\t_mm512_maskz_slli_epi64(0xff, _mm512_maskz_srli_epi64(0xff, EW_BITS_mm512_pd(a), 52), 52)))\n"
 	"#define EW_FRACTION_mm512_ps(a) _mm512_castsi512_ps(_mm512_sub_epi32( \\\n"
 	"\t_mm512_castps_si512(a), \\\n"
-	"\t_mm512_maskz_slli_epi32(0xffff, _mm512_maskz_srli_epi32(0xffff, EW_BITS_mm512_ps(a), 23), 23)))\n";
+	"\t_mm512_maskz_slli_epi32(0xffff, "
+	"_mm512_maskz_srli_epi32(0xffff, EW_BITS_mm512_ps(a), 23), 23)))\n";
 
 static const char *const NEON =
 	"#define EW_LEAST_f64 DBL_MIN\n"
@@ -179,7 +180,8 @@ void emit_environment(Text *text, const Request *request)
 	text_add(text, "\n#define EW_LEAST DBL_MIN\n#define EW_LEASTf FLT_MIN\n");
 	text_add(text, "\n/* Operations that are more than one instruction; see ew_ring_choose, "
 		"ew_ring_exponent and ew_ring_fraction. */\n%s%s", X86, NEON);
-	text_add(text, "\n/* a > b ? a : b; a < b ? a : b; a > 0 ? b : c; for a >= 1 the integer k with a 2^-k in "
+	text_add(text, "\n"
+		"/* a > b ? a : b; a < b ? a : b; a > 0 ? b : c; for a >= 1 the integer k with a 2^-k in "
 		"[sqrt 1/2, sqrt 2),\n * and that number. */\n");
 	for (int p = 0; p < precision_count; ++p)    /* deposits of filters are float */
 		if (request->precisions & precisions[p].bit

@@ -76,7 +76,8 @@ static const Entry rings[] = {
 	"coordinate^(m+n+2). EW_BAD_DEGREE leaves out untouched. Error: gamma_K times the same sum "
 	"with every term positive, K = k + r (max(ceil(n/8), 23) - 1) + 3, k and r (\"repeat\") "
 	"from the manifest (float: at most k + 63 r + 5, because 16 lanes are flushed to double "
-	"every 1024 edges); degree 0 is computed and bounded as ew_area. Far from the origin the terms are "
+	"every 1024 edges); degree 0 is computed and bounded as ew_area. Far from the origin the terms "
+	"are "
 	"large and cancel: use ew_moments_about or ew_central_moments there. "
 	"Source: Green's theorem; Steger 1996.",
 	"int ew_moments@(int degree, const REAL *x, const REAL *y, size_t n, REAL *out)" },
@@ -238,7 +239,8 @@ static const Entry windows[] = {
 	"REAL ew_below@(REAL px, REAL py, REAL qx, REAL qy, REAL u0, REAL u1, REAL v0, REAL v1)" },
 	{ has_coverage,
 	"What the edge (x0,y0) -> (x1,y1) adds to the area of region and rectangle [u0,u1] x [v0,v1]: "
-	"ew_below, negative if the edge goes to the right. No polygon is clipped: summed over the edges of "
+	"ew_below, negative if the edge goes to the right. No polygon is clipped: summed over the edges "
+	"of "
 	"any ring, in any order, it is the area of the part inside (winding-weighted). Error: |w| (20 u H "
 	"+ 9 u (|y0 - v0| + |y1 - v0|)) + m H, w the width of the part of the edge between u0 and u1, "
 	"H = v1 - v0, m the smallest normal number. Coordinates up to a quarter of the largest number. "
@@ -246,15 +248,18 @@ static const Entry windows[] = {
 	"beside the rectangle gives exactly 0. Bad input as ew_below. Source: Green's theorem.",
 	"REAL ew_line_coverage@(" LINE_POINTS ", REAL u0, REAL u1, REAL v0, REAL v1)" },
 	{ has_coverage,
-	"Area of the part of a ring inside the rectangle [u0,u1] x [v0,v1]; 0 if that is empty. Error: the "
+	"Area of the part of a ring inside the rectangle [u0,u1] x [v0,v1]; 0 if that is empty. Error: "
+	"the "
 	"sum of those of the edges, and gamma_(ceil(n/8) + 2) (float: gamma_68) of the sum of |edges|.",
 	"REAL ew_coverage@(const REAL *x, const REAL *y, size_t n, REAL u0, REAL u1, REAL v0, REAL v1)" },
 	{ has_raster,
-	"An image of filtered coverage: pixels[j row_stride + i] = integral of f(x - i - 1/2, y - j - 1/2) "
+	"An image of filtered coverage: pixels[j row_stride + i] = integral of f(x - i - 1/2, y - j - "
+	"1/2) "
 	"over the region inside all rings, weighted by winding; ring i has the vertices offsets[i] .. "
 	"offsets[i+1] - 1. Pixel (i,j) has its centre at (i + 1/2, j + 1/2), y grows with j, unit: a "
 	"pixel. Every pixel of the image is written. The region may leave the image on any side. Exact up "
-	"to rounding: at most 2e-6 for 1000 edges, 1e-5 for 100000, and filters whose values are around 1; a "
+	"to rounding: at most 2e-6 for 1000 edges, 1e-5 for 100000, and filters whose values are around "
+	"1; a "
 	"pixel that no edge comes near is exactly the winding number (times the filter's integral), which "
 	"must be below 256. Reversing all rings "
 	"negates the image, moving them by whole pixels moves it, bit for bit. row_stride counts floats "
@@ -452,7 +457,8 @@ static void add_filters(Text *text, const Request *request)
 	text_add(text, "typedef struct ew_filter ew_filter;\n");
 	for (int i = 0; i < request->filters; ++i)
 		text_add(text, "extern const ew_filter ew_filter_%s;\n", request->filter[i].name);
-	add_comment(text, "What one line edge adds to the integral of a filter, centred at (cx,cy), over the "
+	add_comment(text, "What one line edge adds to the integral of a filter, centred at (cx,cy), over "
+		"the "
 		"region, and that integral for the region inside one ring: - sum over edges of the integral "
 		"of F(x, y(x)) dx, F the integral of f over y from below. Swapping the ends negates the first "
 		"bit for bit; an edge that is vertical, a point, below or beside the support gives exactly 0. "

@@ -220,7 +220,8 @@ static void add_deposits(Text *text, const Request *request, const Kernels *kern
 		"float *out);\n"
 		"struct ew_filter {\n\tconst char *name;\n\tint size;        /* N, pixels per axis; 0: "
 		"knots are not pixels apart */\n\tdouble first_x, first_y, last_x, last_y;   /* support, "
-		"from the centre */\n\tdouble unit;     /* of the deposits */\n\tint ring;        /* its kernels over rings */\n"
+		"from the centre */\n\tdouble unit;     /* of the deposits */\n"
+		"\tint ring;        /* its kernels over rings */\n"
 		"\tew_deposit *deposit[%d];     /* by target, lowest bit first; NULL: not built */\n};\n",
 		TARGETS);
 	for (int t = 0; t < target_count && kernels->deposits; ++t)
@@ -252,7 +253,8 @@ static void add_targets(Text *text, const Request *request, const Kernels *kerne
 					target->vector ? target->name : "");
 		text_add(text, "\n");
 	}
-	text_add(text, "\n/* X(TARGET, target, doubles): the targets that this compiler builds, and doubles "
+	text_add(text, "\n"
+		"/* X(TARGET, target, doubles): the targets that this compiler builds, and doubles "
 		"in a "
 		"register */\n"
 		"#define EW_TARGETS(X)%s\n", text_take(&all));
@@ -282,7 +284,8 @@ static void add_types(Text *text, const Request *request, const Kernels *kernels
 	for (int p = 0; p < precision_count; ++p) {
 		const char *real = precisions[p].real, *suffix = precisions[p].suffix;
 		if (request->precisions & precisions[p].bit)
-			text_add(text, "/* from, or if fewer than width are left, pad: from[0 .. rest-1], then zeros. */\n"
+			text_add(text, "/* from, or if fewer than width are left, pad: "
+				"from[0 .. rest-1], then zeros. */\n"
 				"static inline const %s *ew_ring_pad%s("
 				"%s *pad, const %s *from, size_t rest, size_t width)\n{\n"
 				"\tif (rest >= width)\n\t\treturn from;\n"

@@ -12,8 +12,8 @@
  *             the long chain of a cell too, so that two are on the way
  *
  * The last vectors may be partial: their loads are masked, or go through buffers that hold 0 behind
- * the last item, and an item of zeros adds exactly 0. Kernels of curves and windows are long, so they
- * have this one loop only; what it costs is small beside their operations. */
+ * the last item, and an item of zeros adds exactly 0. Kernels of curves and windows are long, so
+ * they have this one loop only; what it costs is small beside their operations. */
 #include "gen.h"
 
 enum { FEW_OPERATIONS = 6,   /* on the FMA pipe, up to which loads are the limit (degree 1) */

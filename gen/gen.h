@@ -245,8 +245,8 @@ enum {
 	OPS };
 #undef OP
 
-/* What an item of a kernel reads: the points of an edge, or a vertex between its neighbours. A cell:
- * a line edge, while the corners (x2,y2), (x3,y3) of a rectangle stay the same. */
+/* What an item of a kernel reads: the points of an edge, or a vertex between its neighbours. A
+ * cell: a line edge, while the corners (x2,y2), (x3,y3) of a rectangle stay the same. */
 enum { WINDOW_LINE, WINDOW_VERTEX, WINDOW_QUAD, WINDOW_CONIC, WINDOW_CUBIC, WINDOW_CELL, WINDOWS };
 int  window_points(int window);
 int  window_planes(int window);              /* arrays of coordinates: the weight is one more */
@@ -286,7 +286,7 @@ enum { SPELL_C, SPELL_X86, SPELL_NEON, SPELLINGS };
 const char *op_spelling(int op, int how);    /* how: a column of ops.def */
 
 Dag *dag_new(const char *scheme);
-/* Calls that build nodes must not be arguments of one call: compilers evaluate them in any order. */
+/* Calls that build nodes must not be arguments of one call, which may be evaluated in any order. */
 Ref  dag_node(Dag *dag, int op, Ref a, Ref b, Ref c);
 Ref  dag_input(Dag *dag, Mono input);        /* a variable or an accumulator */
 Ref  dag_var(Dag *dag, int var);
@@ -423,10 +423,10 @@ Span cell_span(Dag *dag, Ref start, Ref end);
 /* x and y at +tau and -tau; how many points they are. */
 int  cell_node(Dag *dag, Span x, Span y, Rat tau, Ref point[2][2]);
 
-/* ---- deposit.c: an edge within one cell, and all pixels whose support holds it ---------------- */
+/* ---- deposit.c: an edge within one cell, and all pixels whose support holds it -------------- */
 
 enum { DEPOSIT_SIZE = 8 };                   /* pixels per axis at most */
-int  deposit_size(const Filter *filter);     /* pixels per axis, or 0 if knots are not pixels apart */
+int  deposit_size(const Filter *filter); /* pixels per axis, or 0 if knots are not pixels apart */
 Dag *deposit(const Filter *filter);
 int  deposit_nodes(const Filter *filter);    /* of its rule */
 Rat  deposit_unit(const Filter *filter);     /* of the outputs */

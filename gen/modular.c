@@ -4,7 +4,8 @@
  * dyadic rationals, so program and definition are both polynomials over Q in the coordinates, with
  * coefficients that exist modulo a prime: if they differ, they differ at nearly all points (a
  * polynomial of degree d vanishes at no more than d / p of them: Zippel 1979, Schwartz 1980). The
- * program, run in the order of its schedule (residue.c), is compared at a few fixed pseudorandom points with
+ * program, run in the order of its schedule (residue.c), is compared at a few fixed pseudorandom
+ * points with
  *
  *     1/(m+n+2) sum over nodes of weight x^m y^n (x y' - y x'),
  *
@@ -22,7 +23,8 @@ static Residue finished(const Dag *dag, const Number *value, int output)
 	const Poly form = dag->finish[output];
 	for (int i = 0; i < form.count; ++i) {
 		int k = mono_accumulator_of(form.term[i].mono);
-		sum = residue_add(sum, residue_multiply(residue_of(form.term[i].coef), value[dag->out[k]].residue));
+		sum = residue_add(sum, residue_multiply(residue_of(form.term[i].coef),
+			value[dag->out[k]].residue));
 	}
 	return sum;
 }
@@ -40,7 +42,8 @@ static void casteljau(int points, const Residue *coordinate, Residue t, Residue 
 		for (int i = 0; i + 1 < count; ++i)
 			p[i] = residue_add(residue_multiply(s, p[i]), residue_multiply(t, p[i + 1]));
 	*value = residue_add(residue_multiply(s, p[0]), residue_multiply(t, p[1]));
-	*slope = residue_multiply(residue_multiply(residue_subtract(p[1], p[0]), (Residue)points - 1), residue_inverse(2));
+	*slope = residue_multiply(residue_multiply(residue_subtract(p[1], p[0]),
+		(Residue)points - 1), residue_inverse(2));
 }
 
 static Residue definition(const Dag *dag, const Residue *coordinate, int m, int n, int degree)
@@ -58,7 +61,8 @@ static Residue definition(const Dag *dag, const Residue *coordinate, int m, int 
 		casteljau(points, coordinate + 1, t, &y, &dy);
 		Residue turn = residue_subtract(residue_multiply(x, dy), residue_multiply(y, dx));
 		Residue value = residue_multiply(residue_power(x, (uint64_t)m), residue_power(y, (uint64_t)n));
-		sum = residue_add(sum, residue_multiply(residue_of(weight[i / 2]), residue_multiply(value, turn)));
+		sum = residue_add(sum, residue_multiply(residue_of(weight[i / 2]),
+			residue_multiply(value, turn)));
 	}
 	return residue_multiply(sum, residue_inverse((Residue)(m + n + 2)));
 }

@@ -16,16 +16,16 @@
  * made of them is clamped (MIN and MAX give their second operand for NaN) and meets a width that is
  * exactly 0.
  *
- * A rectangle of height H: the mean of the clamped heights l and r, m = (l + r)/2, where t of d, the
- * difference of the heights, stick out above and b below, is m + (H - m) t/d - m b/d. t and b are 0
- * for an edge that stays inside; so the least number added to d does no harm: where t is not 0, H - m
- * is at most d. They are sums of exact differences y - min(y, H) and p - max(p, 0), whose rounding is
- * not small only where it meets H - m = 0 or m = 0. Minima, maxima and products share a port, so
- * choices and sums stand in for them where they can.
+ * A rectangle of height H: the mean of the clamped heights l and r, m = (l + r)/2, where t of d,
+ * the difference of the heights, stick out above and b below, is m + (H - m) t/d - m b/d. t and b
+ * are 0 for an edge that stays inside; so the least number added to d does no harm: where t is not
+ * 0, H - m is at most d. They are sums of exact differences y - min(y, H) and p - max(p, 0), whose
+ * rounding is not small only where it meets H - m = 0 or m = 0. Minima, maxima and products share a
+ * port, so choices and sums stand in for them where they can.
  *
  * A filter: each column is cut where the edge crosses the knots of the rows. Between two of them F
- * is one polynomial, and the Gauss-Legendre rule that is exact for its degree along a line gives the
- * integral; above the support the integral over x is known. Ends of pieces are clamped to their
+ * is one polynomial, and the Gauss-Legendre rule that is exact for its degree along a line gives
+ * the integral; above the support the integral over x is known. Ends of pieces are clamped to their
  * row, so that rounding never leaves it, and are relative to its lower left knot. */
 #include "gen.h"
 
@@ -90,7 +90,8 @@ static Dag *new_window(int window, const char *scheme, Rat factor)
 	return dag;
 }
 
-/* width mean, or NaN where a coordinate is NaN or infinite, which clamps swallow: a - a is not 0. */
+/* width mean, or NaN where a coordinate is NaN or infinite, which clamps swallow: a - a is not 0.
+ * */
 static void finish_window(Dag *dag, const Ordered *e, Ref width, Ref mean)
 {
 	Ref rise = dag_sub(dag, e->rise, e->rise), run = dag_sub(dag, e->run, e->run);

@@ -428,8 +428,8 @@ EW_INLINE int ew_raster_run(const ew_raster_image *image, uint64_t touched, int 
 	return end < image->width ? end : image->width;
 }
 
-/* Row by row, the sums in the first row of the difference image; what nothing touched is what stands
- * above. */
+/* Row by row, the sums in the first row of the difference image; what nothing touched is what
+ * stands above. */
 #define EW_SWEEP(stem, type, value) \
 static void ew_raster_##stem##_scalar(const ew_raster_image *image, type *pixels, int rows, \
 	ptrdiff_t stride) \

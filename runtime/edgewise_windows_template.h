@@ -25,8 +25,8 @@ static void EW_LOCAL(set_cell)(EW_REAL u0, EW_REAL u1, EW_REAL v0, EW_REAL v1, E
 			origin[k * EW_WIDTH + l] = bound[k];
 }
 
-EW_REAL EW_NAME(line_coverage)(EW_REAL x0, EW_REAL y0, EW_REAL x1, EW_REAL y1, EW_REAL u0, EW_REAL u1,
-	EW_REAL v0, EW_REAL v1)
+EW_REAL EW_NAME(line_coverage)(EW_REAL x0, EW_REAL y0, EW_REAL x1, EW_REAL y1, EW_REAL u0,
+	EW_REAL u1, EW_REAL v0, EW_REAL v1)
 {
 	EW_REAL origin[4 * EW_WIDTH];
 	const EW_REAL extent = EW_LOCAL(extent)(u0, u1, v0, v1, ((x1 - x0) + (y1 - y0)) * 0);
