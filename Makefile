@@ -282,7 +282,8 @@ TEST_BUILD  = $(CC) -std=gnu11 -Wall -Wextra -ffp-contract=off $(SANITIZE) $(CFL
 
 # Expressions of the table in tests/polynomials.c.
 $(B)/polynomials.stamp: $(B)/gen
-	$(B)/gen --max-degree 1 --polynomial 'soft=(1-x)*(1-y)' --polynomial 'saddle=x^2-y^2' \
+	$(B)/gen --max-degree 1 --families moments --polynomial 'soft=(1-x)*(1-y)' \
+		--polynomial 'saddle=x^2-y^2' \
 		--polynomial 'deep=x^5*y^3/7 - 2.5*x^2*y^4 - 2*x + 1/3' --out $(B)/polynomials
 	@touch $@
 
