@@ -110,7 +110,7 @@ $(B)/shapes: examples/shapes.c $(LIB)
 FREETYPE = $(or $(shell pkg-config --cflags --libs freetype2 2>/dev/null), \
            -I/usr/include/freetype2 -lfreetype)
 
-$(B)/glyphs: examples/glyphs.c examples/utf8.h $(LIB)
+$(B)/glyphs: examples/glyphs.c examples/face.h examples/utf8.h $(LIB)
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) $(FREETYPE) -lm
 
 glyphs: $(B)/glyphs
@@ -131,7 +131,7 @@ KNOWN_FILTERS = $$(sed -n 's/^extern const ew_filter ew_filter_\(.*\);/X(\1)/p' 
 RENDER_BUILD = $(COMPILE) -std=c11 "-DRENDER_FILTERS(X)=$(call KNOWN_FILTERS,$1)" -I$1 -o $@ \
                $(RENDER) $2 $(LDFLAGS) $(FREETYPE) $(PNG) -lm
 
-$(B)/render: $(RENDER) examples/render/render.h examples/utf8.h $(LIB)
+$(B)/render: $(RENDER) examples/render/render.h examples/face.h examples/utf8.h $(LIB)
 	$(call RENDER_BUILD,$(B)/emitted,$(LIB))
 
 render: $(B)/render
@@ -167,7 +167,7 @@ $(B)/filters/libedgewise.a: $(FILTERED:$(B)/filters/emitted/%.c=$(B)/filters/lib
 	@rm -f $@
 	ar rcs $@ $^
 
-$(B)/filters/render: $(RENDER) examples/render/render.h examples/utf8.h \
+$(B)/filters/render: $(RENDER) examples/render/render.h examples/face.h examples/utf8.h \
 		$(B)/filters/libedgewise.a
 	$(call RENDER_BUILD,$(B)/filters/emitted,$(B)/filters/libedgewise.a)
 
@@ -204,7 +204,8 @@ BENCH_COMPILE   = $(COMPILE) -std=c11 -fno-tree-vectorize -fno-tree-slp-vectoriz
 BENCH_OBJECTS  := $(BENCH_PARTS:%=$(B)/bench.obj/%.o)
 
 # Kernels for comparison, each emission under a prefix of its own: everything as a coefficient
-# matrix, all moments to degree 12, and curves with every term written out. The files to compile are known only after gen ran.
+# matrix, all moments to degree 12, and curves with every term written out. The files to compile are
+# known only after gen ran.
 BENCH_EMITS := mx deg12 ex
 EMIT_mx     := --scheme matrix --max-degree 6 --precision double
 EMIT_deg12  := --max-degree 12

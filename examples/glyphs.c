@@ -21,10 +21,10 @@
 #include <string.h>
 
 #include <ft2build.h>
-#include FT_FREETYPE_H
 #include FT_OUTLINE_H
 
 #include "edgewise.h"
+#include "face.h"
 #include "utf8.h"
 
 /* Coordinates are multiples of 1/2, so the area under a line is a multiple of 1/8, under a quad of
@@ -62,7 +62,7 @@ typedef struct {
 	FT_ULong *codes; /* of every glyph its first character, 0 for none */
 } Font;
 
-static void fail(const char *format, ...)
+_Noreturn void fail(const char *format, ...)
 {
 	va_list args;
 	va_start(args, format);
@@ -99,19 +99,7 @@ static void *grow(void *array, size_t count, size_t size)
 static void open_font(Font *font, const char *file)
 {
 	*font = (Font){ .file = file };
-	FILE *stream = fopen(file, "rb"); /* FreeType does not say why it cannot */
-	if (!stream || (getc(stream) == EOF && ferror(stream)))
-		fail("cannot read %s: %s", file, strerror(errno));
-	fclose(stream);
-	if (FT_Init_FreeType(&font->library))
-		fail("FreeType does not start");
-	const FT_Error error = FT_New_Face(font->library, file, 0, &font->face);
-	if (error == FT_Err_Unknown_File_Format)
-		fail("%s is not a font that FreeType knows", file);
-	if (error)
-		fail("%s is a damaged font: FreeType's error 0x%02x", file, (unsigned)error);
-	if (!FT_IS_SCALABLE(font->face))
-		fail("%s has bitmaps, but no outlines", file);
+	font->face = open_face(&font->library, file);
 	font->codes = allocate((size_t)font->face->num_glyphs, sizeof *font->codes);
 	if (FT_Select_Charmap(font->face, FT_ENCODING_UNICODE))
 		return;

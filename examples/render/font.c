@@ -6,15 +6,14 @@
  * advances and the kerning of the font's `kern` table; '\n' begins a line. */
 #include "render.h"
 
+#include "../face.h"
 #include "../utf8.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <ft2build.h>
-#include FT_FREETYPE_H
 #include FT_OUTLINE_H
 
 struct Font {
@@ -32,19 +31,7 @@ Font *font_open(const char *file)
 {
 	Font *font = allocate(1, sizeof *font);
 	font->file = file;
-	FILE *stream = fopen(file, "rb"); /* FreeType does not say why it cannot */
-	if (!stream || (getc(stream) == EOF && ferror(stream)))
-		fail("cannot read %s: %s", file, strerror(errno));
-	fclose(stream);
-	if (FT_Init_FreeType(&font->library))
-		fail("FreeType does not start");
-	const FT_Error error = FT_New_Face(font->library, file, 0, &font->face);
-	if (error == FT_Err_Unknown_File_Format)
-		fail("%s is not a font that FreeType knows", file);
-	if (error)
-		fail("%s is a damaged font: FreeType's error 0x%02x", file, (unsigned)error);
-	if (!FT_IS_SCALABLE(font->face) || !font->face->units_per_EM)
-		fail("%s has bitmaps, but no outlines", file);
+	font->face = open_face(&font->library, file);
 	if (FT_Select_Charmap(font->face, FT_ENCODING_UNICODE))
 		fail("%s has no table of Unicode characters", file);
 	return font;
