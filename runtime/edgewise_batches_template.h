@@ -167,17 +167,6 @@ static int EW_LOCAL(next_row)(EW_LOCAL(batch) *b)
 	return b->count != 0;
 }
 
-static int EW_LOCAL(bad_offsets)(const int32_t *offsets, size_t rings)
-{
-	uint32_t start = rings ? (uint32_t)offsets[0] : 0, signs = start;
-	for (size_t i = 0; i < rings; ++i) {
-		const uint32_t end = (uint32_t)offsets[i + 1];
-		signs |= end | (end - start);
-		start = end;
-	}
-	return signs >> 31 != 0;
-}
-
 static void EW_LOCAL(begin)(EW_LOCAL(batch) *b, int degree, int moved, const EW_REAL *x,
 	const EW_REAL *y, const int32_t *offsets, size_t rings)
 {
@@ -237,7 +226,7 @@ int EW_NAME(moments_rings)(int degree, const EW_REAL *x, const EW_REAL *y, const
 {
 	if (degree < 0 || degree > EW_MAX_DEGREE)
 		return EW_BAD_DEGREE;
-	if (EW_LOCAL(bad_offsets)(offsets, rings))
+	if (ew_ring_bad_offsets(offsets, rings))
 		return EW_BAD_OFFSETS;
 	EW_LOCAL(batch) b;
 	EW_LOCAL(begin)(&b, degree, 0, x, y, offsets, rings);
@@ -296,7 +285,7 @@ static void EW_LOCAL(put_centroids)(const EW_LOCAL(batch) *b, EW_REAL *cx, EW_RE
 int EW_NAME(centroid_rings)(const EW_REAL *x, const EW_REAL *y, const int32_t *offsets,
 	size_t rings, EW_REAL *cx, EW_REAL *cy)
 {
-	if (EW_LOCAL(bad_offsets)(offsets, rings))
+	if (ew_ring_bad_offsets(offsets, rings))
 		return EW_BAD_OFFSETS;
 	EW_LOCAL(batch) b;
 	EW_LOCAL(begin)(&b, 1, 1, x, y, offsets, rings);

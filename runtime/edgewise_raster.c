@@ -780,17 +780,6 @@ static int ew_raster_has(int verb)
 	return verb <= EW_CLOSE;
 }
 
-static int ew_raster_bad_offsets(const int32_t *offsets, size_t rings)
-{
-	uint32_t start = rings ? (uint32_t)offsets[0] : 0, signs = start;
-	for (size_t i = 0; i < rings; ++i) {
-		const uint32_t end = (uint32_t)offsets[i + 1];
-		signs |= end | (end - start);
-		start = end;
-	}
-	return signs >> 31 != 0;
-}
-
 #ifdef EW_HAS_DOUBLE
 #define EW_IS_FLOAT 0
 #include "edgewise_precision.h"

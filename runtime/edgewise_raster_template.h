@@ -60,7 +60,7 @@ static int EW_RASTER(check)(const EW_REAL *x, const EW_REAL *y, const int32_t *o
 {
 	if (rings == 0)
 		return EW_OK;
-	if (!offsets || ew_raster_bad_offsets(offsets, rings))
+	if (!offsets || ew_ring_bad_offsets(offsets, rings))
 		return EW_BAD_OFFSETS;
 	return offsets[0] < offsets[rings] && !(x && y) ? EW_BAD_IMAGE : EW_OK;
 }

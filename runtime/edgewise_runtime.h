@@ -104,6 +104,20 @@ EW_INLINE size_t ew_path_points(int verb)
 }
 #endif
 
+#if defined(EW_MAX_DEGREE) || defined(EW_HAS_FILTERS)
+/* Is one negative, or less than the one before? */
+EW_INLINE int ew_ring_bad_offsets(const int32_t *offsets, size_t rings)
+{
+	uint32_t start = rings ? (uint32_t)offsets[0] : 0, signs = start;
+	for (size_t i = 0; i < rings; ++i) {
+		const uint32_t end = (uint32_t)offsets[i + 1];
+		signs |= end | (end - start);
+		start = end;
+	}
+	return signs >> 31 != 0;
+}
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
