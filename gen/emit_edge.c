@@ -126,7 +126,8 @@ static const char *contribution(const Edge *edge)
 	return format("%s to the integral of %s", kinds[edge->window], edge->what->formula);
 }
 
-void emit_edge(Text *text, const Edge *edge, const Precision *precision)
+/* One with its comment. */
+static void emit_edge(Text *text, const Edge *edge, const Precision *precision)
 {
 	const Style style = { precision, 1, 1, 0, "", "return ", NULL };
 	const Program *program = &edge->program;

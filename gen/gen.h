@@ -230,7 +230,6 @@ typedef struct {
 	Poly magnitude;                      /* every term positive: W of the error bound */
 } Integral;
 
-Poly     green_cross(void);                  /* x0 y1 - x1 y0 */
 Integral green_line(Poly integrand);
 /* The value alone, for an edge with so many control points. */
 Poly     green_curve(int points, Poly integrand);
@@ -597,9 +596,8 @@ void emit_stored(Text *text, const Program *program, const Style *style, int ite
 	void (*open)(const void *to, int accumulator),
 	void (*close)(const void *to, int accumulator), const void *to);
 
-/* One ew_line_NAME or ew_cubic_NAME with its comment, and the files of all. */
+/* All ew_line_NAME, ew_cubic_NAME, ... with their comments. */
 char *emit_parameters(int window, const char *real);   /* "double x0, double y0, ..." */
-void emit_edge(Text *text, const Edge *edge, const Precision *precision);
 void emit_edges(Files *files, const Request *request, const Kernels *kernels);
 void emit_show(Text *text, const Integrand *monomial, const char *format_name);   /* --show */
 /* The body of a ring kernel whose lanes run side by side, after its signature. */

@@ -12,7 +12,8 @@
  * kinds may be mixed in one boundary. */
 #include "gen.h"
 
-Poly green_cross(void)
+/* x0 y1 - x1 y0 */
+static Poly chord_cross(void)
 {
 	Poly left = poly_mul(poly_var(VAR_X0), poly_var(VAR_Y1));
 	Poly right = poly_mul(poly_var(VAR_X1), poly_var(VAR_Y0));
@@ -79,8 +80,8 @@ Integral green_line(Poly integrand)
 {
 	Integral integral;
 	integral.density = line_density(integrand);
-	integral.value = poly_mul(green_cross(), integral.density);
-	integral.magnitude = poly_mul(poly_abs(green_cross()), line_density(poly_abs(integrand)));
+	integral.value = poly_mul(chord_cross(), integral.density);
+	integral.magnitude = poly_mul(poly_abs(chord_cross()), line_density(poly_abs(integrand)));
 	return integral;
 }
 
