@@ -94,7 +94,7 @@ generated: $(B)/gen
 
 # ---- examples and bench ----
 
-$(B)/shapes: examples/shapes.c library
+$(B)/shapes: examples/shapes.c examples/outline.h library
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
 
 # Where pkg-config does not know FreeType, it may still stand in its usual place.
