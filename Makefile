@@ -97,6 +97,42 @@ generated: $(B)/gen
 $(B)/shapes: examples/shapes.c examples/outline.h library
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
 
+# Cut cells: the filters x^m y^n on a cell, for all m + n <= CELL_DEGREE, as files, and a library of
+# them, which tells the program what it has.
+CELL_DEGREE := 4
+CELL        := $(B)/cutcell.d/$(CELL_DEGREE)
+CELL_KNOWN   = $$(sed -n 's/^extern .* ew_filter_cell_x\(.*\)y\(.*\);/X(\1, \2)/p' \
+               $(CELL)/emitted/edgewise.h | tr '\n' ' ')
+CELL_BUILD   = -std=c11 "-DCELL_MOMENTS(X)=$(CELL_KNOWN)" -I$(CELL)/emitted
+
+$(CELL)/emitted.stamp: $(B)/gen
+	@rm -rf $(CELL)
+	@mkdir -p $(CELL)
+	@m=0; while [ $$m -le $(CELL_DEGREE) ]; do \
+		n=0; while [ $$((m + n)) -le $(CELL_DEGREE) ]; do \
+			printf 'filter cell_x%dy%d\nbivariate\npiece -1/2 1/2 -1/2 1/2 : x^%d*y^%d\n' \
+				$$m $$n $$m $$n >$(CELL)/x$${m}y$$n.filter; n=$$((n + 1)); \
+		done; m=$$((m + 1)); \
+	done
+	$(B)/gen --max-degree $(CELL_DEGREE) --families moments --precision double \
+		--targets portable,fma --quiet \
+		$$(printf -- '--filter %s ' $(CELL)/*.filter) --out $(CELL)/emitted
+	@touch $@
+
+$(CELL)/cells.a: $(CELL)/emitted.stamp
+	@cd $(CELL)/emitted && for f in *.c; do \
+		$(COMPILE) -std=c99 -c -o "$${f%.c}.o" "$$f" || exit 1; done && ar rcs ../cells.a *.o
+
+$(B)/cutcell: examples/cutcell.c examples/outline.h $(CELL)/cells.a
+	$(COMPILE) $(CELL_BUILD) -o $@ $< $(CELL)/cells.a $(LDFLAGS) -lm
+
+cutcell: $(B)/cutcell
+
+$(B)/section: examples/section.c examples/outline.h library
+	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
+
+section: $(B)/section
+
 # Where pkg-config does not know FreeType, it may still stand in its usual place.
 FREETYPE = $(or $(shell pkg-config --cflags --libs freetype2 2>/dev/null), \
            -I/usr/include/freetype2 -lfreetype)
@@ -317,6 +353,10 @@ $(CURVE_TESTS:%=$(B)/tests/%): tests/curve_reference.c
 $(WINDOW_TESTS:%=$(B)/tests/%): tests/window_reference.c tests/window_area.c
 
 $(RASTER_TESTS:%=$(B)/tests/%): tests/window_reference.c tests/raster_reference.c
+
+$(B)/tests/cutcell: tests/cutcell.c tests/reference.c tests/window_reference.c \
+		$(wildcard tests/*.h) $(CELL)/emitted.stamp | $(B)/tests
+	$(TEST_BUILD) $(CELL_BUILD) -o $@ $(filter %.c,$^) $(LDFLAGS) $(MATH)
 
 $(B)/tests/monomials: tests/monomials.c tests/reference.c $(B)/monomials.stamp | $(B)/tests
 	$(TEST_BUILD) -I$(B)/monomials -DMANIFEST='"$(B)/monomials/edgewise_manifest.json"' -o $@ \
