@@ -2,6 +2,8 @@
 #   make             build gen, emit, build build/libedgewise.a, run examples/shapes on real data
 #   make deps        install what the tests need (Debian: apt-get)
 #   make test        all tests            make bench       against machine and peers
+#   make cutcell     examples/cutcell: moments of cut cells; CELL_DEGREE=4
+#   make section     examples/section: section properties of profiles
 #   make glyphs      examples/glyphs, which needs FreeType
 #   make render      examples/render, which needs FreeType and libpng; make sheet, make plots:
 #                    its contact sheet, and the plots of the filters in examples/filters
@@ -41,7 +43,7 @@ LIB     := $(B)/libedgewise.a
 SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
 MATH    := -lmpfr -lgmp -lm
 
-.PHONY: all library objects generated glyphs glyphs-if-freetype render render-if-libraries sheet \
+.PHONY: all library objects generated cutcell section glyphs glyphs-if-freetype render render-if-libraries sheet \
         plots filters test test-cross deps bench deps-bench layers accept accept-hashes clean
 .DELETE_ON_ERROR:
 
@@ -302,7 +304,8 @@ CURVE_TESTS := curves conics paths
 WINDOW_TESTS := windows window_rings filters
 RASTER_TESTS := raster raster_bits raster_fuzz raster_contract raster_paths raster_memory
 CUSTOM_TESTS := filters raster_custom raster_memory
-PROGRAMS    := $(addprefix $(B)/tests/,$(GEN_TESTS) lines polynomials monomials shapes glyphs \
+PROGRAMS    := $(addprefix $(B)/tests/,$(GEN_TESTS) lines polynomials monomials shapes glyphs cutcell \
+               section \
                $(RING_TESTS) $(CURVE_TESTS) $(WINDOW_TESTS) $(RASTER_TESTS)) \
                $(CUSTOM_TESTS:%=$(B)/tests/custom/%)
 TEST_BUILD  = $(CC) -std=gnu11 -Wall -Wextra -ffp-contract=off $(SANITIZE) $(CFLAGS) -Itests
@@ -348,7 +351,7 @@ $(B)/tests/polynomials: tests/polynomials.c tests/reference.c $(B)/polynomials.s
 
 $(B)/tests/distance: tests/distance_reference.c
 
-$(CURVE_TESTS:%=$(B)/tests/%): tests/curve_reference.c
+$(CURVE_TESTS:%=$(B)/tests/%) $(B)/tests/section: tests/curve_reference.c
 
 $(WINDOW_TESTS:%=$(B)/tests/%): tests/window_reference.c tests/window_area.c
 
@@ -365,7 +368,7 @@ $(B)/tests/monomials: tests/monomials.c tests/reference.c $(B)/monomials.stamp |
 $(B)/tests/%: tests/%.c tests/reference.c $(wildcard tests/*.h) library | $(B)/tests
 	$(TEST_BUILD) -I$(B)/emitted -o $@ $(filter %.c,$^) $(LIB) $(LDFLAGS) $(MATH)
 
-test: $(PROGRAMS) $(B)/shapes $(B)/plot glyphs-if-freetype render-if-libraries
+test: $(PROGRAMS) $(B)/shapes $(B)/cutcell $(B)/section $(B)/plot glyphs-if-freetype render-if-libraries
 	@if [ -x $(B)/render ]; then $(MAKE) --no-print-directory filters; fi
 	@sh tests/run.sh $(B)/tests/logs \
 		'layers: sh tests/layers.sh $(B) "$(GEN)"' \
@@ -378,6 +381,7 @@ test: $(PROGRAMS) $(B)/shapes $(B)/plot glyphs-if-freetype render-if-libraries
 		$(foreach t,$(CUSTOM_TESTS),'custom-$(t): $(B)/tests/custom/$(t)') \
 		'fuzz: sh tests/fuzz.sh $(B)' 'filter-fuzz: sh tests/filter_fuzz.sh $(B)' \
 		'polynomials: $(B)/tests/polynomials' 'monomials: $(B)/tests/monomials' \
+		'cutcell: sh tests/cutcell.sh $(B)' 'section: sh tests/section.sh $(B)' \
 		'shapes: $(B)/shapes --exact examples/data/countries.txt | $(B)/tests/shapes' \
 		'glyphs: sh tests/glyphs.sh $(B)' 'render: sh tests/render.sh $(B)' \
 		'command-line: sh tests/cli.sh $(B)/gen' \

@@ -374,8 +374,8 @@ static void add_moved(const double *moments, int i, int j, double *total)
 		total[q] += moved[q];
 }
 
-/* Column by column, upwards: what no edge parts has one winding number. Columns are summed up before
- * they are added to the total, so that no sum has many terms. */
+/* Column by column, upwards: what no edge parts has one winding number. Columns are summed up
+ * before they are added to the total, so that no sum has many terms. */
 static void visit(const Grid *grid, const Rule *rule, bool exact, double *total)
 {
 	double worst = 0;
