@@ -373,7 +373,7 @@ test: $(PROGRAMS) $(B)/shapes $(B)/cutcell $(B)/section $(B)/plot glyphs-if-free
 	@sh tests/run.sh $(B)/tests/logs \
 		'layers: sh tests/layers.sh $(B) "$(GEN)"' \
 		$(foreach t,$(GEN_TESTS),'$(t): $(B)/tests/$(t)') \
-		'readme: sh tests/readme.sh $(B)' \
+		'readme: sh tests/readme.sh $(B)' 'docs: sh tests/docs.sh $(B)' \
 		'golden: sh tests/golden.sh $(B)' 'counts: sh tests/counts.sh $(B)' \
 		'lines: $(B)/tests/lines' \
 		$(foreach t,$(RING_TESTS) $(CURVE_TESTS) $(WINDOW_TESTS) $(RASTER_TESTS), \
@@ -406,12 +406,12 @@ accept: $(B)/gen
 # gmp and mpfr for the reference; the other compilers only widen the compile matrix; the cross
 # compilers and qemu are for test-cross. (gcc-multilib would remove the cross compilers.) FreeType,
 # fonts and fontTools are for examples/glyphs, libpng is for examples/render; with munkres fontTools
-# does without SciPy.
+# does without SciPy. mandoc and bash are for tests/docs.sh.
 PACKAGES := gcc g++ clang libclang-rt-14-dev tcc make binutils libc6-dev libgmp-dev libmpfr-dev \
             gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-i686-linux-gnu \
             libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user \
             libfreetype-dev libpng-dev pkg-config fonts-dejavu-core fonts-gfs-didot \
-            python3-fonttools python3-munkres
+            python3-fonttools python3-munkres mandoc bash
 deps:
 	@if command -v apt-get >/dev/null; then \
 		run=; [ "$$(id -u)" = 0 ] || run=sudo; \
