@@ -26,6 +26,7 @@ _edgewise_gen_list() {
 
 _edgewise_gen() {
 	local current=${COMP_WORDS[COMP_CWORD]} option=${COMP_WORDS[COMP_CWORD - 1]} joined=
+	local IFS=$' \t\n' # names of files may have blanks
 	COMPREPLY=()
 	if [[ $current == --*=* ]]; then
 		option=${current%%=*}
@@ -46,13 +47,16 @@ _edgewise_gen() {
 	--format)
 		COMPREPLY=($(compgen -W 'text json latex c' -- "$current")) ;;
 	--filter | --show)
+		IFS=$'\n'
 		compopt -o filenames 2>/dev/null
 		COMPREPLY=($(compgen -W "$(_edgewise_gen_words filters)" -- "$current")
 			$(compgen -f -- "$current")) ;;
 	--out)
+		IFS=$'\n'
 		compopt -o filenames 2>/dev/null
 		COMPREPLY=($(compgen -d -- "$current")) ;;
 	--single-header | --manifest | --depfile)
+		IFS=$'\n'
 		compopt -o filenames 2>/dev/null
 		COMPREPLY=($(compgen -f -- "$current")) ;;
 	--max-degree | --monomial | --polynomial | --prefix | -d)
