@@ -2,7 +2,7 @@
 #   make             build gen, emit, build build/libedgewise.a, run examples/shapes on real data
 #   make deps        install what the tests need (Debian: apt-get)
 #   make test        all tests            make bench       against machine and peers
-#   make cutcell     examples/cutcell: moments of cut cells; CELL_DEGREE=4
+#   make cutcell     examples/cutcell: moments of cut cells, to degree CELL_DEGREE=4
 #   make section     examples/section: section properties of profiles
 #   make glyphs      examples/glyphs, which needs FreeType
 #   make render      examples/render, which needs FreeType and libpng; make sheet, make plots:
@@ -44,7 +44,7 @@ SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
 MATH    := -lmpfr -lgmp -lm
 
 .PHONY: all library objects generated cutcell section glyphs glyphs-if-freetype render render-if-libraries sheet \
-        plots filters test test-cross deps bench deps-bench layers accept accept-hashes clean
+        plots filters FORCE test test-cross deps bench deps-bench layers accept accept-hashes clean
 .DELETE_ON_ERROR:
 
 all: library $(B)/shapes render-if-libraries
@@ -102,12 +102,15 @@ $(B)/shapes: examples/shapes.c examples/outline.h library
 # Cut cells: the filters x^m y^n on a cell, for all m + n <= CELL_DEGREE, as files, and a library of
 # them, which tells the program what it has.
 CELL_DEGREE := 4
-CELL        := $(B)/cutcell.d/$(CELL_DEGREE)
+CELL        := $(B)/cells
 CELL_KNOWN   = $$(sed -n 's/^extern .* ew_filter_cell_x\(.*\)y\(.*\);/X(\1, \2)/p' \
                $(CELL)/emitted/edgewise.h | tr '\n' ' ')
 CELL_BUILD   = -std=c11 "-DCELL_MOMENTS(X)=$(CELL_KNOWN)" -I$(CELL)/emitted
 
-$(CELL)/emitted.stamp: $(B)/gen
+$(B)/cells.degree: FORCE
+	@echo $(CELL_DEGREE) | cmp -s - $@ || echo $(CELL_DEGREE) >$@
+
+$(CELL)/emitted.stamp: $(B)/gen $(B)/cells.degree
 	@rm -rf $(CELL)
 	@mkdir -p $(CELL)
 	@m=0; while [ $$m -le $(CELL_DEGREE) ]; do \

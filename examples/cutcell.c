@@ -29,6 +29,8 @@
 enum { DEGREE = EW_MAX_DEGREE, MOMENTS = EW_MOMENTS(DEGREE), NODES = DEGREE + 1 };
 enum { MOST_CELLS = 4096 };
 
+_Static_assert(DEGREE >= 2, "the table has centroids and second moments");
+
 static const OutlineKind in_plane = { "x", "y", "", 1e9, 1e9, false };
 
 typedef double Filter(double x0, double y0, double x1, double y1, double cx, double cy);
@@ -327,7 +329,7 @@ static void print_cell(const Grid *grid, int i, int j, const Cell *cell)
 	printf("%4d %4d %10.7f %11.6f %11.6f", i, j, m[0],
 	       grid->x + grid->size * (i + 0.5 + m[EW_INDEX(1, 0)] / m[0]),
 	       grid->y + grid->size * (j + 0.5 + m[EW_INDEX(0, 1)] / m[0]));
-	for (int n = 0; n < 3 && DEGREE >= 2; n++)
+	for (int n = 0; n < 3; n++)
 		printf(" %11.4e", m[EW_INDEX(2 - n, n)]);
 	printf(" %11.4e\n", least_weight(cell));
 }
