@@ -43,8 +43,8 @@ LIB     := $(B)/libedgewise.a
 SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
 MATH    := -lmpfr -lgmp -lm
 
-.PHONY: all library objects generated cutcell section glyphs glyphs-if-freetype render render-if-libraries sheet \
-        plots filters FORCE test test-cross deps bench deps-bench layers accept accept-hashes clean
+.PHONY: all library objects generated cutcell section glyphs glyphs-if-freetype render \
+        render-if-libraries sheet plots filters FORCE test test-cross deps bench deps-bench layers accept accept-hashes clean
 .DELETE_ON_ERROR:
 
 all: library $(B)/shapes render-if-libraries
@@ -371,7 +371,8 @@ $(B)/tests/monomials: tests/monomials.c tests/reference.c $(B)/monomials.stamp |
 $(B)/tests/%: tests/%.c tests/reference.c $(wildcard tests/*.h) library | $(B)/tests
 	$(TEST_BUILD) -I$(B)/emitted -o $@ $(filter %.c,$^) $(LIB) $(LDFLAGS) $(MATH)
 
-test: $(PROGRAMS) $(B)/shapes $(B)/cutcell $(B)/section $(B)/plot glyphs-if-freetype render-if-libraries
+test: $(PROGRAMS) $(B)/shapes $(B)/cutcell $(B)/section $(B)/plot glyphs-if-freetype \
+		render-if-libraries
 	@if [ -x $(B)/render ]; then $(MAKE) --no-print-directory filters; fi
 	@sh tests/run.sh $(B)/tests/logs \
 		'layers: sh tests/layers.sh $(B) "$(GEN)"' \

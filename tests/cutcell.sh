@@ -6,7 +6,8 @@
 # All numbers are held against exact rationals by cutcell.c; then come the table and the errors.
 
 . "$(dirname "$0")/verdict.sh"
-cutcell=$(cd "$1" && pwd)/cutcell
+. "$tests/example.sh"
+program=$(cd "$1" && pwd)/cutcell
 exact=$(cd "$1" && pwd)/tests/cutcell
 foil=$root/examples/data/naca2412.txt
 countries=$root/examples/data/countries.txt
@@ -15,44 +16,21 @@ countries=$root/examples/data/countries.txt
 check_exactly() {
 	name=$1
 	shift
-	"$cutcell" --exact "$@" >"$work/grid" 2>"$work/stderr"
+	"$program" --exact "$@" >"$work/grid" 2>"$work/stderr"
 	verdict "$name" "$(head -n 1 "$work/stderr")"
 	"$exact" <"$work/grid" >"$work/verdicts" 2>&1
-	tail -n 1 "$work/verdicts" | grep -q '^[0-9]* passed, [0-9]* failed$' \
-		|| echo "not ok end: $(tail -n 1 "$work/verdicts")" >>"$work/verdicts"
-	sed -n -e "s/^# /# $name: /p" -e "s/^ok /ok $name, /p" \
-		-e "s/^not ok /not ok $name, /p" "$work/verdicts" >"$work/renamed"
-	replay "$work/renamed"
-}
-
-# NAME STATUS PATTERN ARGUMENTS...: fails so, says so, and prints nothing else.
-expect_error() {
-	name=$1
-	status=$2
-	pattern=$3
-	shift 3
-	problem=
-	got=0
-	"$cutcell" "$@" >"$work/stdout" 2>"$work/stderr" || got=$?
-	if [ $got -ne "$status" ]; then
-		problem="status $got, not $status"
-	elif ! grep -qF -e "$pattern" "$work/stderr"; then
-		problem="no word of '$pattern' in: $(head -n 1 "$work/stderr")"
-	elif [ -s "$work/stdout" ]; then
-		problem="standard output says $(head -n 1 "$work/stdout")"
-	fi
-	verdict "$name" "$problem"
+	under "$name" "$work/verdicts"
 }
 
 # A square whose sides are lines of the grid cuts nothing; a hole in the middle of a cell cuts one,
 # and its numbers can be said.
 check_table() {
 	printf 'shape square\nring\n1 1\n3 1\n3 3\n1 3\n' >"$work/square"
-	"$cutcell" --cells 2 "$work/square" >"$work/table"
+	"$program" --cells 2 "$work/square" >"$work/table"
 	verdict "sides on the grid" "$(grep -q '^0 cells are cut, 4 are whole' "$work/table" ||
 		grep cells "$work/table")"
 	printf 'hole\n1.25 1.25\n1.25 1.75\n1.75 1.75\n1.75 1.25\n' >>"$work/square"
-	"$cutcell" --cells 2 "$work/square" >"$work/table"
+	"$program" --cells 2 "$work/square" >"$work/table"
 	row=$(sed -n 2p "$work/table" | awk '{ print $1, $2, $3, $4, $5, $6, $7, $8 }')
 	want='0 0 0.7500000 1.500000 1.500000 7.8125e-02 0.0000e+00 7.8125e-02'
 	verdict "a hole in a cell" "$([ "$row" = "$want" ] || echo "the row is $row, not $want")"
@@ -74,7 +52,7 @@ check_errors() {
 	expect_error "a radius" 1 "$work/bad:5:5: error: unexpected text" "$work/bad"
 	printf 'shape s\nring\n0 0\n0 1\n1 0\n' >"$work/bad"
 	expect_error "clockwise" 1 "$work/bad:2:1: error: the ring runs clockwise" "$work/bad"
-	"$cutcell" --help >"$work/stdout" 2>"$work/stderr"
+	"$program" --help >"$work/stdout" 2>"$work/stderr"
 	verdict "--help" "$(grep -q '^usage: cutcell' "$work/stdout" || cat "$work/stderr")"
 }
 

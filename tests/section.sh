@@ -7,7 +7,8 @@
 # table and the errors.
 
 . "$(dirname "$0")/verdict.sh"
-section=$(cd "$1" && pwd)/section
+. "$tests/example.sh"
+program=$(cd "$1" && pwd)/section
 exact=$(cd "$1" && pwd)/tests/section
 profiles=$root/examples/data/sections.txt
 
@@ -16,33 +17,10 @@ check_exactly() {
 	name=$1
 	file=$2
 	shift 2
-	"$section" --exact "$file" >"$work/output" 2>"$work/stderr"
+	"$program" --exact "$file" >"$work/output" 2>"$work/stderr"
 	verdict "$name" "$(head -n 1 "$work/stderr")"
 	"$exact" "$profiles" "$@" <"$work/output" >"$work/verdicts" 2>&1
-	tail -n 1 "$work/verdicts" | grep -q '^[0-9]* passed, [0-9]* failed$' \
-		|| echo "not ok end: $(tail -n 1 "$work/verdicts")" >>"$work/verdicts"
-	sed -n -e "s/^ok /ok $name, /p" -e "s/^not ok /not ok $name, /p" "$work/verdicts" \
-		>"$work/renamed"
-	replay "$work/renamed"
-}
-
-# NAME STATUS PATTERN ARGUMENTS...: fails so, says so, and prints nothing else.
-expect_error() {
-	name=$1
-	status=$2
-	pattern=$3
-	shift 3
-	problem=
-	got=0
-	"$section" "$@" >"$work/stdout" 2>"$work/stderr" || got=$?
-	if [ $got -ne "$status" ]; then
-		problem="status $got, not $status"
-	elif ! grep -qF -e "$pattern" "$work/stderr"; then
-		problem="no word of '$pattern' in: $(head -n 1 "$work/stderr")"
-	elif [ -s "$work/stdout" ]; then
-		problem="standard output says $(head -n 1 "$work/stdout")"
-	fi
-	verdict "$name" "$problem"
+	under "$name" "$work/verdicts"
 }
 
 # Fractions of 25 and 50 in hundredths: four decimals are exact.
@@ -58,14 +36,14 @@ rotate() {
 
 # h b tw tf r of IPE 200, by the formula for its area.
 check_table() {
-	"$section" "$profiles" 'IPE 200' >"$work/table"
+	"$program" "$profiles" 'IPE 200' >"$work/table"
 	area=$(awk 'BEGIN {
 		h = 200; b = 100; tw = 5.6; tf = 8.5; r = 12; pi = atan2(0, -1)
 		printf "%.4f", (2*b*tf + (h - 2*tf)*tw + (4 - pi)*r^2)/100
 	}')
 	row=$(awk '$1 == "A" { print $2, $3, $4 }' "$work/table")
 	verdict "the table of one" "$([ "$row" = "$area cm2 28.48" ] || echo "area is $row")"
-	got=$("$section" "$profiles" | grep -c ' area$')
+	got=$("$program" "$profiles" | grep -c ' area$')
 	want=$(grep -c '^shape' "$profiles")
 	verdict "all of them" "$([ "$got" -eq "$want" ] || echo "$got of $want")"
 }
@@ -96,7 +74,7 @@ check_errors() {
 	expect_refusal "a negative radius" "4:5: error: the radius must be between 0 and" \
 		ring '0 0' '0 1 -1' '1 1'
 	expect_refusal "text" "3:5: error: expected a radius" ring '0 0 mm' '0 1'
-	"$section" --help >"$work/stdout" 2>"$work/stderr"
+	"$program" --help >"$work/stdout" 2>"$work/stderr"
 	verdict "--help" "$(grep -q '^usage: section' "$work/stdout" || cat "$work/stderr")"
 }
 
