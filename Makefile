@@ -366,6 +366,7 @@ accept: $(B)/gen
 PACKAGES := gcc g++ clang libclang-rt-14-dev tcc make binutils libc6-dev libgmp-dev libmpfr-dev \
             gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-i686-linux-gnu \
             libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user \
+            lld wasi-libc libclang-rt-14-dev-wasm32 nodejs \
             libfreetype-dev libpng-dev pkg-config fonts-dejavu-core fonts-gfs-didot \
             python3-fonttools python3-munkres
 deps:

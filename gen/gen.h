@@ -187,8 +187,9 @@ typedef struct {
 
 enum { PRECISION_DOUBLE = 1, PRECISION_FLOAT = 2 };
 /* The bits of EW_PORTABLE, EW_FMA, ... */
-enum { TARGET_PORTABLE = 1, TARGET_FMA = 2, TARGET_AVX2 = 4, TARGET_AVX512 = 8, TARGET_NEON = 16 };
-enum { ALL_TARGETS = 31, TARGETS = 5 };
+enum { TARGET_PORTABLE = 1, TARGET_FMA = 2, TARGET_AVX2 = 4, TARGET_AVX512 = 8, TARGET_NEON = 16,
+       TARGET_WASM128 = 32 };
+enum { ALL_TARGETS = 63, TARGETS = 6 };
 extern const char *const target_names[TARGETS];   /* in the order of the bits */
 
 enum { FAMILY_MOMENTS = 1, FAMILY_CURVES = 2, FAMILY_DISTANCE = 4, FAMILY_CLOSURE = 8,
@@ -239,7 +240,7 @@ Poly     green_curve(int points, Poly integrand);
 
 typedef uint32_t Ref;                        /* index of a node; children are smaller */
 #define NONE UINT32_MAX
-#define OP(name, operands, commutes, fma, add, divide, c, x86, neon) OP_##name,
+#define OP(name, operands, commutes, fma, add, divide, c, x86, neon, wasm) OP_##name,
 enum {
 #include "ops.def"
 	OPS };
@@ -282,7 +283,7 @@ int  op_add_cost(int op);
 int  op_divide_cost(int op);
 int  op_commutes(int op);                    /* do its first two operands? */
 const char *op_name(int op);
-enum { SPELL_C, SPELL_X86, SPELL_NEON, SPELLINGS };
+enum { SPELL_C, SPELL_X86, SPELL_NEON, SPELL_WASM, SPELLINGS };
 const char *op_spelling(int op, int how);    /* how: a column of ops.def */
 
 Dag *dag_new(const char *scheme);
@@ -558,6 +559,8 @@ typedef struct {                             /* one row per target */
 } Target;
 extern const Target targets[];
 extern const int target_count;
+/* The program of a ring that a target runs. */
+const Program *emit_ring_program(const Ring *ring, const Target *target, int is_float);
 
 typedef struct { const char *real, *suffix, *unit; int is_float, lanes; unsigned bit; } Precision;
 extern const Precision precisions[];

@@ -135,7 +135,9 @@ const char *const family_names[FAMILIES] = {
 	"moments", "curves", "distance", "closure", "coverage", "filters"
 };
 const char *const edge_names[EDGES] = { "line", "quad", "conic", "cubic" };
-const char *const target_names[TARGETS] = { "portable", "fma", "avx2", "avx512", "neon" };
+const char *const target_names[TARGETS] = {
+	"portable", "fma", "avx2", "avx512", "neon", "wasm128"
+};
 
 static void add_list(Text *text, const char *option, unsigned bits, const char *const *names,
 	int count)
