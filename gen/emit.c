@@ -74,7 +74,7 @@ const Target targets[] = {
 	{ "neon", TARGET_NEON, 1, "EW_BUILD_NEON", "EW_ARM", "EW_ATTRIBUTE_NEON",
 		"AArch64 NEON", &neon },
 	{ "wasm128", TARGET_WASM128, 0, "EW_BUILD_WASM128", "EW_WASM", "EW_ATTRIBUTE_WASM128",
-		"WebAssembly SIMD, no fused operations: the bits of portable", &wasm128 },
+		"WebAssembly SIMD without FMA", &wasm128 },
 };
 const int target_count = LENGTH(targets);
 
