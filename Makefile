@@ -42,7 +42,7 @@ SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
 MATH    := -lmpfr -lgmp -lm
 
 .PHONY: all library objects generated glyphs glyphs-if-freetype render render-if-libraries sheet \
-        plots filters test test-cross deps bench deps-bench layers accept accept-hashes clean
+        plots filters playground test-playground deps-playground test test-cross deps bench deps-bench layers accept accept-hashes clean
 .DELETE_ON_ERROR:
 
 all: library $(B)/shapes render-if-libraries
@@ -174,6 +174,49 @@ plots: $(B)/plot
 		name=examples/filters/$${pair%:*}; \
 		$(B)/plot $$name.filter $${pair#*:} $$name.svg || exit 1; \
 	done
+
+# ---- the playground: a page in one file, with the kernels as WebAssembly in it ----
+
+PLAYGROUND := $(addprefix examples/playground/,pack.sh index.html style.css library.js shape.js \
+              figure.js region.js pictures.js below.js main.js)
+
+$(B)/playground:
+	@mkdir -p $@
+
+$(B)/playground/emitted.stamp: $(B)/gen | $(B)/playground
+	$(B)/gen --max-degree 2 --families moments,curves,distance,coverage --filter box \
+		--filter tent --filter mitchell --precision double --targets wasm128 --quiet \
+		--out $(B)/playground/emitted
+	@touch $@
+
+$(B)/playground/edgewise.wasm: examples/playground/playground.c $(B)/playground/emitted.stamp
+	clang --target=wasm32-wasi -msimd128 -std=c11 $(STRICT) -ffp-contract=off -Oz \
+		-fvisibility=hidden -ffunction-sections -fdata-sections -I$(B)/playground/emitted \
+		-nostartfiles -Wl,--no-entry,--gc-sections,--strip-all,--export-dynamic \
+		-Wl,--export=ew_below,--export=ew_line_coverage \
+		-o $@ $< $(B)/playground/emitted/*.c -lm
+
+$(B)/playground/index.html: $(B)/playground/edgewise.wasm $(PLAYGROUND)
+	sh examples/playground/pack.sh $< >$@
+
+playground: $(B)/playground/index.html
+
+$(B)/tests/playground: tests/playground.c library | $(B)/tests
+	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
+
+test-playground: $(B)/tests/playground playground
+	@sh tests/run.sh $(B)/tests/logs 'playground: sh tests/playground.sh $(B)'
+
+# The browser is Debian's; what steers it is one package of npm, for this folder only.
+PLAYWRIGHT := playwright-core@1.56.1
+
+deps-playground:
+	@$(MAKE) --no-print-directory deps PACKAGES='clang lld wasi-libc libclang-rt-14-dev-wasm32 \
+		chromium $(shell command -v node >/dev/null || echo nodejs) \
+		$(shell command -v npm >/dev/null || echo npm)'
+	@mkdir -p $(B)/playground
+	@cd $(B)/playground && PLAYWRIGHT_SKIP_BROWSER_DOWNLOAD=1 npm install --silent --no-audit \
+		--no-fund --prefix . $(PLAYWRIGHT)
 
 # ---- bench: make bench BENCH='--quick --json FILE'; peers are optional (make deps-bench) ----
 
