@@ -5,9 +5,11 @@
 #   make glyphs      examples/glyphs, which needs FreeType
 #   make render      examples/render, which needs FreeType and libpng; make sheet, make plots:
 #                    its contact sheet, and the plots of the filters in examples/filters
+#   make playground  build/playground/index.html: a page to draw regions on (clang, lld, wasi-libc)
 #   make filters     the library and render with filters of yours: FILTER='my.filter other.filter'
 #   make generated   emit generated/ anew make layers      no object refers upwards in the pipeline
 #   make accept      accept new golden outputs             make clean
+#   make deps-playground test-playground  what the page needs, and its tests in Chromium
 #   make test-cross  the same bits on other machines       make accept-hashes  accept new bits
 # Variables: CC CFLAGS LDFLAGS B (build directory) SAN=1
 # (address and undefined-behaviour sanitizers)
@@ -178,7 +180,10 @@ plots: $(B)/plot
 # ---- the playground: a page in one file, with the kernels as WebAssembly in it ----
 
 PLAYGROUND := $(addprefix examples/playground/,pack.sh index.html style.css library.js shape.js \
-              figure.js region.js pictures.js below.js main.js)
+              text.js figure.js terms.js region.js pictures.js below.js main.js)
+
+# What the page calls by itself, besides playground.c.
+PLAYGROUND_CALLS := below line_coverage line_area quad_area conic_area cubic_area
 
 $(B)/playground:
 	@mkdir -p $@
@@ -193,7 +198,7 @@ $(B)/playground/edgewise.wasm: examples/playground/playground.c $(B)/playground/
 	clang --target=wasm32-wasi -msimd128 -std=c11 $(STRICT) -ffp-contract=off -Oz \
 		-fvisibility=hidden -ffunction-sections -fdata-sections -I$(B)/playground/emitted \
 		-nostartfiles -Wl,--no-entry,--gc-sections,--strip-all,--export-dynamic \
-		-Wl,--export=ew_below,--export=ew_line_coverage \
+		$(PLAYGROUND_CALLS:%=-Wl,--export=ew_%) \
 		-o $@ $< $(B)/playground/emitted/*.c -lm
 
 $(B)/playground/index.html: $(B)/playground/edgewise.wasm $(PLAYGROUND)

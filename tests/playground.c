@@ -6,6 +6,7 @@
  *     path VERBS POINTS WEIGHTS verbs... x y ... weights...   moments to degree 2
  *     translate dx dy m00 ... m02                             moments of the moved region
  *     ring N x y ...                     one more ring; bounded moments, bounds, centroid, central
+ *     edge N x y ... [weight]            its area; N points, 0 for a conic
  *     distance x y                       over all rings
  *     filters scale x y                  box, tent and Mitchell over all rings, scaled
  *     image filter scale x y width height     of the path, from its lower left corner, top row first
@@ -100,6 +101,23 @@ static void ring(void)
 	say(central, EW_MOMENTS(2));
 }
 
+static void edge(void)
+{
+	const size_t n = count(), numbers = n == 0 ? 7 : 2 * n;
+	double v[8], area = NAN;
+	for (size_t i = 0; i < numbers && i < 8; i++)
+		v[i] = number();
+	if (n == 0)
+		area = ew_conic_area(v[0], v[1], v[2], v[3], v[4], v[5], v[6]);
+	else if (n == 2)
+		area = ew_line_area(v[0], v[1], v[2], v[3]);
+	else if (n == 3)
+		area = ew_quad_area(v[0], v[1], v[2], v[3], v[4], v[5]);
+	else if (n == 4)
+		area = ew_cubic_area(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]);
+	say(&area, 1);
+}
+
 static void distance(void)
 {
 	const double cx = number(), cy = number();
@@ -163,7 +181,8 @@ static const struct {
 	const char *name;
 	void (*answer)(void);
 } questions[] = { { "path", path }, { "translate", translate }, { "ring", ring },
-	{ "distance", distance }, { "filters", filters }, { "image", image }, { "below", below } };
+	{ "edge", edge }, { "distance", distance }, { "filters", filters },
+	{ "image", image }, { "below", below } };
 
 int main(void)
 {

@@ -10,7 +10,7 @@ class BelowFigure {
 		this.figure = new Figure(element, ...size, { moved: (key, at) => {
 			this.move(key, at);
 			changed(key);
-		}, resized: changed });
+		}, redraw: changed });
 		const { drawing } = this.figure.layers;
 		this.parts = Object.fromEntries(['sides', 'rectangle', 'area', 'segment'].map(part =>
 			[part, svg(drawing, 'path', { class: part })]));
@@ -64,17 +64,14 @@ class BelowFigure {
 	draw(library) {
 		const { figure, parts, p, q, rectangle: r } = this;
 		const corners = [[r.u0, r.v0], [r.u1, r.v1]];
-		parts.area.setAttribute('d', this.shade());
-		parts.segment.setAttribute('d', `M${figure.to(p)}L${figure.to(q)}`);
-		parts.rectangle.setAttribute('d', `M${figure.to(corners[0])}H${figure.x(r.u1)}` +
-			`V${figure.y(r.v1)}H${figure.x(r.u0)}Z`);
-		parts.sides.setAttribute('d', [r.u0, r.u1].map(u =>
-			`M${figure.x(u)} 0V${figure.y(0)}`).join(''));
-		for (const [i, [x, y]] of [p, q, ...corners].entries()) {
-			this.names[i].setAttribute('x', figure.x(x) + (i === 3 ? -10 : 10));
-			this.names[i].setAttribute('y', figure.y(y) + (i === 2 ? 22 : -12));
-			this.names[i].setAttribute('text-anchor', i === 3 ? 'end' : 'start');
-		}
+		set(parts.area, { d: this.shade() });
+		set(parts.segment, { d: `M${figure.to(p)}L${figure.to(q)}` });
+		set(parts.rectangle, { d: `M${figure.to(corners[0])}H${figure.x(r.u1)}V${figure.y(r.v1)}` +
+			`H${figure.x(r.u0)}Z` });
+		set(parts.sides, { d: [r.u0, r.u1].map(u => `M${figure.x(u)} 0V${figure.y(0)}`).join('') });
+		for (const [i, [x, y]] of [p, q, ...corners].entries())
+			set(this.names[i], { x: figure.x(x) + (i === 3 ? -10 : 10),
+				y: figure.y(y) + (i === 2 ? 22 : -12), 'text-anchor': i === 3 ? 'end' : 'start' });
 		figure.show([
 			{ key: 'p', point: p, kind: 'node', mark: 'node', label: 'End p of the segment' },
 			{ key: 'q', point: q, kind: 'node', mark: 'node', label: 'End q of the segment' },

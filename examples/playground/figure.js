@@ -17,18 +17,25 @@ const MARKS = {
 };
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
+/* Only what differs: style and layout follow each attribute that is set. */
+function set(element, attributes) {
+	for (const [name, value] of Object.entries(attributes))
+		if (element.getAttribute(name) !== String(value))
+			element.setAttribute(name, value);
+}
+
 function svg(parent, name, attributes = {}) {
 	const element = document.createElementNS('http://www.w3.org/2000/svg', name);
-	for (const [key, value] of Object.entries(attributes))
-		element.setAttribute(key, value);
+	set(element, attributes);
 	parent.append(element);
 	return element;
 }
 
 class Figure {
-	/* moved(key, [x, y]) is told where a point should go; keyed(key, event) sees other keys. */
-	constructor(element, width, height, { moved, keyed = () => false, resized }) {
-		Object.assign(this, { element, width, height, moved, keyed });
+	/* moved(key, [x, y]) is told where a point should go; keyed(key, event) sees other keys; redraw()
+	 * is called when the size or the chosen point is another. */
+	constructor(element, width, height, { moved, keyed = () => false, redraw }) {
+		Object.assign(this, { element, width, height, moved, keyed, redraw });
 		this.layers = Object.fromEntries(['grid', 'drawing', 'handles'].map(name =>
 			[name, svg(element, 'g', { class: name })]));
 		this.handles = new Map();
@@ -42,10 +49,10 @@ class Figure {
 			if (this.near(clientX, clientY, REACH.touch) !== null)
 				event.preventDefault();
 		}, { passive: false });
-		element.addEventListener('keydown', event => this.press_key(event));
+		element.addEventListener('keydown', event => this.pressKey(event));
 		new ResizeObserver(() => {
 			this.fit();
-			resized();
+			redraw();
 		}).observe(element);
 		this.fit();
 	}
@@ -55,7 +62,7 @@ class Figure {
 		const wide = this.element.clientWidth || this.width;
 		this.unit = wide / this.width;
 		const high = this.height * this.unit;
-		this.element.setAttribute('viewBox', `0 0 ${wide} ${high}`);
+		set(this.element, { viewBox: `0 0 ${wide} ${high}` });
 		let path = '';
 		for (let x = 1; x < this.width; x++)
 			path += `M${x * this.unit} 0V${high}`;
@@ -77,9 +84,12 @@ class Figure {
 		return `${this.x(x).toFixed(2)} ${this.y(y).toFixed(2)}`;
 	}
 
-	/* { key, point, kind, mark, label }, of every point that can be moved. */
+	/* { key, point, kind, mark, label }, of every point that can be moved. Keys may name other points
+	 * when their number has changed: who holds one then lets go. */
 	show(points) {
 		const keys = new Set(points.map(point => point.key));
+		if (keys.size !== this.handles.size)
+			this.letGo();
 		for (const [key, handle] of this.handles) {
 			if (!keys.has(key)) {
 				handle.element.remove();
@@ -90,10 +100,8 @@ class Figure {
 			const handle = this.handles.get(key) ?? this.add(key, kind, mark);
 			const [x, y] = point;
 			handle.point = point;
-			handle.element.setAttribute('transform', `translate(${this.to(point)})`);
-			handle.element.setAttribute('aria-label', label);
-			handle.element.setAttribute('aria-valuenow', x);
-			handle.element.setAttribute('aria-valuetext', `x ${say(x)}, y ${say(y)}`);
+			set(handle.element, { transform: `translate(${this.to(point)})`, 'aria-label': label,
+				'aria-valuenow': x, 'aria-valuetext': `x ${say(x)}, y ${say(y)}` });
 		}
 		/* Tab goes from point to point as they are listed. */
 		let place = this.layers.handles.firstChild;
@@ -113,7 +121,10 @@ class Figure {
 			'aria-valuemax': this.width });
 		svg(element, 'circle', { class: 'halo', r: 14 });
 		svg(element, 'path', { class: 'mark', d: MARKS[mark] });
-		element.addEventListener('focus', () => this.choose(key));
+		element.addEventListener('focus', () => {
+			this.choose(key);
+			this.redraw();
+		});
 		const handle = { element };
 		this.handles.set(key, handle);
 		return handle;
@@ -173,13 +184,16 @@ class Figure {
 	}
 
 	release(event) {
-		if (event.pointerId !== this.held?.pointer)
-			return;
+		if (event.pointerId === this.held?.pointer)
+			this.letGo();
+	}
+
+	letGo() {
 		this.held = undefined;
 		this.element.removeAttribute('data-held');
 	}
 
-	press_key(event) {
+	pressKey(event) {
 		const key = this.chosen, arrow = ARROWS[event.key];
 		if (!this.handles.get(key)?.element.contains(event.target))
 			return;
@@ -197,28 +211,5 @@ class Figure {
 	move(key, [x, y]) {
 		this.moved(key, [onGrid(Math.min(Math.max(x, 0), this.width)),
 			onGrid(Math.min(Math.max(y, 0), this.height))]);
-	}
-}
-
-/* Numbers for people: a true minus sign, and nothing where there is no number. */
-function say(value, digits = 2) {
-	if (!Number.isFinite(value))
-		return '–';
-	const text = value.toFixed(digits);
-	return (Number(text) === 0 ? text.replace('-', '') : text).replace('-', '−');
-}
-
-/* Texts stand in elements that name them: data-show. */
-const shown = new Map();
-
-function show(texts) {
-	for (const [name, text] of Object.entries(texts)) {
-		if (!shown.has(name)) {
-			const node = new Text();
-			document.querySelector(`[data-show="${name}"]`).append(node);
-			shown.set(name, node);
-		}
-		if (shown.get(name).data !== text)
-			shown.get(name).data = text;
 	}
 }

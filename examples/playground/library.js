@@ -44,6 +44,14 @@ class Library {
 		return { status, area, bound, cx, cy, m20, m11, m02, lines: this.kernels.lines() };
 	}
 
+	/* What one edge adds to the area. */
+	term(points, weight) {
+		const coordinates = points.flat();
+		if (weight !== undefined)
+			return this.kernels.ew_conic_area(...coordinates, weight);
+		return this.kernels[`ew_${['line', 'quad', 'cubic'][points.length - 2]}_area`](...coordinates);
+	}
+
 	distance([x, y]) {
 		return this.kernels.distance(x, y);
 	}

@@ -50,7 +50,7 @@ static double tolerance;
 static int vertex(double x, double y)
 {
 	if (vertices == MAX_VERTICES)
-		return EW_BAD_PATH;
+		return EW_NO_MEMORY;
 	vertex_x[vertices] = x;
 	vertex_y[vertices] = y;
 	vertices++;
@@ -144,6 +144,16 @@ static int one_ring_of_lines(void)
 	return 1;
 }
 
+/* No number where there is no region. */
+static int fail(int status)
+{
+	vertices = rings = 0;
+	for (int i = 0; i < EW_MOMENTS(2); i++)
+		moments[i] = central[i] = bounds[i] = NAN;
+	centroid[0] = centroid[1] = NAN;
+	return status;
+}
+
 /* Takes the path that stands in the buffers, and computes `moments` about (0,0), `bounds` of their
  * errors (of one ring of lines; else NaN), `centroid`, and `central` moments about it. */
 EXPORT int region(size_t verb_total, size_t point_total, size_t weight_total, double farthest)
@@ -157,7 +167,7 @@ EXPORT int region(size_t verb_total, size_t point_total, size_t weight_total, do
 	if (status == EW_OK)
 		status = flatten();
 	if (status != EW_OK)
-		return status;
+		return fail(status);
 	if (one_ring_of_lines()) {
 		ew_moments_bounded(2, vertex_x, vertex_y, vertices, moments, bounds);
 		return ew_central_moments(2, vertex_x, vertex_y, vertices, centroid, central);

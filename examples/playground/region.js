@@ -22,14 +22,14 @@ class RegionFigure {
 		this.figure = new Figure(element, ...size, actions);
 		const { drawing } = this.figure.layers;
 		this.parts = {};
-		for (const [part, name] of Object.entries({ fill: 'path', reach: 'path', mean: 'circle',
-			ray: 'path', ellipse: 'ellipse', axes: 'path', levers: 'path', outline: 'path' }))
+		for (const [part, name] of Object.entries({ fill: 'path', triangle: 'path', reach: 'path',
+			mean: 'circle', ray: 'path', ellipse: 'ellipse', axes: 'path', levers: 'path',
+			outline: 'path' }))
 			this.parts[part] = svg(drawing, name, { class: part });
 	}
 
 	set(part, attributes) {
-		for (const [name, value] of Object.entries(attributes))
-			this.parts[part].setAttribute(name, value);
+		set(this.parts[part], attributes);
 	}
 
 	/* Where there is no number there is no drawing. */
@@ -42,6 +42,7 @@ class RegionFigure {
 		this.set('fill', { d: outline });
 		this.set('outline', { d: outline });
 		this.set('levers', { d: this.levers(shape) });
+		this.drawTriangle(shape, result);
 		this.drawEllipse(result);
 		this.drawDistance(centre, result);
 		this.set('reach', { d: SUPPORTS.map(width => this.square(filterAt, width / scale)).join('') });
@@ -62,22 +63,26 @@ class RegionFigure {
 		}
 	}
 
-	/* As SVG draws it; a conic, which SVG does not know, by 32 lines. */
 	outline(shape) {
-		const { figure } = this;
 		let path = '';
 		for (const { node, points, weight } of shape.edges()) {
 			if (node === 0)
-				path += `${path ? 'Z' : ''}M${figure.to(points[0])}`;
-			if (weight === undefined) {
-				path += 'LQC'[points.length - 2] +
-					points.slice(1).map(point => figure.to(point)).join(' ');
-			} else {
-				for (let i = 1; i <= 32; i++)
-					path += `L${figure.to(Shape.at(points, weight, i / 32))}`;
-			}
+				path += `${path ? 'Z' : ''}M${this.figure.to(points[0])}`;
+			path += this.piece(points, weight);
 		}
 		return path + 'Z';
+	}
+
+	/* One edge as SVG draws it; a conic, which SVG does not know, by 32 lines. */
+	piece(points, weight) {
+		const { figure } = this;
+		if (weight === undefined)
+			return 'LQC'[points.length - 2] +
+				points.slice(1).map(point => figure.to(point)).join(' ');
+		let path = '';
+		for (let i = 1; i <= 32; i++)
+			path += `L${figure.to(Shape.at(points, weight, i / 32))}`;
+		return path;
 	}
 
 	/* From each control to the node that it bends the edge at. */
@@ -92,6 +97,23 @@ class RegionFigure {
 					`M${figure.to(points[2])}L${figure.to(points[3])}`;
 		}
 		return path;
+	}
+
+	/* contour, node, control of the chosen point; its edge leaves the node, or has it for a control. */
+	get chosen() {
+		const numbers = (this.figure.chosen ?? '').split('.').map(Number);
+		return Number.isInteger(numbers[1]) ? numbers : null;
+	}
+
+	/* What the chosen edge adds to the area. */
+	drawTriangle(shape, { terms, edge }) {
+		this.hide('triangle', edge < 0);
+		if (edge < 0)
+			return;
+		const [contour, node] = this.chosen, { figure } = this;
+		const outline = this.piece(shape.edge(contour, node), shape.contours[contour][node].weight);
+		this.set('triangle', { d: `M${figure.to([0, 0])}L${figure.to(shape.edge(contour, node)[0])}` +
+			`${outline}Z`, class: terms[edge] < 0 ? 'triangle negative' : 'triangle' });
 	}
 
 	square([x, y], width) {
@@ -135,17 +157,17 @@ function ellipseText(ellipse) {
 /* The numbers beside the drawing. */
 function regionTexts({ centre, filterAt, scale, shape }, result) {
 	const pair = ([x, y]) => `(${say(x)}, ${say(y)})`;
-	const lines = result.lines.toLocaleString('en');
+	const bounded = Number.isFinite(result.bound), lines = result.lines.toLocaleString('en');
 	return {
 		area: say(result.area, 10),
-		bound: Number.isFinite(result.bound) ? result.bound.toExponential(1) : '–',
+		bound: bounded ? result.bound.toExponential(1) : '–',
 		centroid: `(${say(result.cx, 6)}, ${say(result.cy, 6)})`,
 		m20: say(result.m20, 6),
 		m11: say(result.m11, 6),
 		m02: say(result.m02, 6),
 		ellipse: ellipseText(momentEllipse(result)),
-		exactness: shape.curved ? 'From the curves themselves, no flattening: ew_path_moments.' :
-			'From the vertices: ew_central_moments, ew_moments_bounded.',
+		exactness: bounded ? 'From the vertices: ew_central_moments, ew_moments_bounded.' :
+			'From lines and curves as they are, no flattening: ew_path_moments.',
 		centre: pair(centre),
 		distance: say(result.distance, 6),
 		mean: say(result.mean, 6),
@@ -156,6 +178,7 @@ function regionTexts({ centre, filterAt, scale, shape }, result) {
 		chords: shape.curved ? `Distance and filters know lines only: from ${lines} chords, within ` +
 			`${say(TOLERANCE, 5)} of the curves.` :
 			`From the ${lines} edges: ew_distance, ew_tent, ew_mitchell.`,
+		term: result.edge < 0 ? '' : `The chosen edge adds ${say(result.terms[result.edge], 4)}.`,
 		zoom: say(scale),
 	};
 }

@@ -30,6 +30,7 @@ const PRESETS = {
 	},
 };
 
+const MOST = 1000;    /* points: what there is room for, and more than anyone can tell apart */
 const onGrid = v => Math.round(v * 100) / 100;
 const between = ([ax, ay], [bx, by], t) => [ax + (bx - ax) * t, ay + (by - ay) * t];
 const apart = ([ax, ay], [bx, by]) => Math.hypot(bx - ax, by - ay);
@@ -137,10 +138,14 @@ class Shape {
 		node.at = to;
 	}
 
+	/* ---- edits: each returns the key of the point that is chosen then ---- */
+
 	/* A new node at t of the edge that leaves node n: de Casteljau's construction, of a conic in
 	 * homogeneous coordinates at 1/2. Lines are split to the grid that points are moved on. */
 	split(c, n, t = 0.5) {
 		const contour = this.contours[c], node = contour[n], edge = this.edge(c, n);
+		if ([...this.points()].length > MOST)
+			return `${c}.${n}`;
 		let at, left, right, weight;
 		if (node.weight !== undefined) {
 			const w = node.weight, [p0, p1, p2] = edge;
@@ -204,7 +209,10 @@ class Shape {
 		const beside = t => between(a, b, t).map((v, i) => onGrid(v + out[i]));
 		node.controls = node.controls.length > 0 ? [] : [beside(1 / 3), beside(2 / 3)];
 		node.weight = undefined;
+		return `${c}.${n}`;
 	}
+
+	/* ---- where things are ---- */
 
 	/* The edge nearest to a point, among samples of it. */
 	nearest(point) {
