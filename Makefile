@@ -44,7 +44,7 @@ SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
 MATH    := -lmpfr -lgmp -lm
 
 .PHONY: all library objects generated glyphs glyphs-if-freetype render render-if-libraries sheet \
-        plots filters playground test-playground deps-playground test test-cross deps bench deps-bench layers accept accept-hashes clean
+        plots filters playground playground-if-tools test-playground deps-playground test test-cross deps bench deps-bench layers accept accept-hashes clean
 .DELETE_ON_ERROR:
 
 all: library $(B)/shapes render-if-libraries
@@ -209,7 +209,15 @@ playground: $(B)/playground/index.html
 $(B)/tests/playground: tests/playground.c library | $(B)/tests
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
 
-test-playground: $(B)/tests/playground playground
+playground-if-tools:
+	@if echo '#include <math.h>' | clang --target=wasm32-wasi -x c -fsyntax-only - 2>/dev/null && \
+		command -v wasm-ld >/dev/null; then \
+		$(MAKE) --no-print-directory playground; \
+	else \
+		rm -f $(B)/playground/index.html; \
+	fi
+
+test-playground: $(B)/tests/playground playground-if-tools
 	@sh tests/run.sh $(B)/tests/logs 'playground: sh tests/playground.sh $(B)'
 
 # The browser is Debian's; what steers it is one package of npm, for this folder only.

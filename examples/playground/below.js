@@ -3,10 +3,10 @@
 
 class BelowFigure {
 	constructor(element, size, changed) {
-		this.p = [1.5, 1.5];
-		this.q = [14, 7.25];
-		this.lower = [4, 2.5];
-		this.upper = [11.5, 6];
+		this.p = [1.5, 1.25];
+		this.q = [13.5, 8.25];
+		this.lower = [3.5, 3.25];
+		this.upper = [12, 6.25];
 		this.figure = new Figure(element, ...size, { moved: (key, at) => {
 			this.move(key, at);
 			changed(key);
