@@ -44,7 +44,8 @@ SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
 MATH    := -lmpfr -lgmp -lm
 
 .PHONY: all library objects generated glyphs glyphs-if-freetype render render-if-libraries sheet \
-        plots filters playground playground-if-tools test-playground deps-playground test test-cross deps bench deps-bench layers accept accept-hashes clean
+        plots filters playground playground-if-tools test-playground deps-playground test \
+        test-cross deps bench deps-bench layers accept accept-hashes clean
 .DELETE_ON_ERROR:
 
 all: library $(B)/shapes render-if-libraries
