@@ -4,7 +4,7 @@
 class BelowFigure {
 	constructor(element, size, changed) {
 		this.p = [1.5, 1.25];
-		this.q = [13.5, 8.25];
+		this.q = [13.5, 7.75];
 		this.lower = [3.5, 3.25];
 		this.upper = [12, 6.25];
 		this.figure = new Figure(element, ...size, { moved: (key, at) => {
