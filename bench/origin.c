@@ -169,7 +169,8 @@ static void measure(int k)
 	const Polygon central = moved(p, -cx, -cy);
 	const Sums about = sum_exactly(&central);
 	const double rest = (double)about.x * (double)about.x / (18 * (double)about.twice_area);
-	const Point d = direction((int)(4 * chance()), chance());
+	const double turns = 4 * chance();
+	const Point d = direction((int)turns, turns - (int)turns);
 	const int64_t dx = whole(distance * d.x), dy = whole(distance * d.y);
 	const Polygon far = moved(p, dx, dy);
 	const Exact centroid[2] = {
