@@ -2,6 +2,7 @@
 #   make             build gen, emit, build build/libedgewise.a, run examples/shapes on real data
 #   make deps        install what the tests need (Debian: apt-get)
 #   make test        all tests            make bench       against machine and peers
+#   make bench-fonttools                  beside fontTools' symfont and MomentsPen
 #   make glyphs      examples/glyphs, which needs FreeType
 #   make render      examples/render, which needs FreeType and libpng; make sheet, make plots:
 #                    its contact sheet, and the plots of the filters in examples/filters
@@ -43,8 +44,8 @@ SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
 MATH    := -lmpfr -lgmp -lm
 
 .PHONY: all library objects generated glyphs glyphs-if-freetype render render-if-libraries sheet \
-        plots pictures libraries-of-pictures filters test test-cross deps bench deps-bench \
-        layers accept accept-hashes clean
+        plots pictures libraries-of-pictures filters test test-cross deps bench bench-fonttools \
+        deps-bench layers accept accept-hashes clean
 .DELETE_ON_ERROR:
 
 all: library $(B)/shapes render-if-libraries
@@ -194,7 +195,8 @@ BENCH_PARTS    := bench measure table vectors targets polygons kernels order sch
                   raster_contest raster_tables raster_filters raster_windows raster_downsample \
                   raster_chart raster chart svg
 BENCH_PACKAGES := g++ libgeos-dev libboost-dev libcgal-dev libopencv-imgproc-dev \
-                  libfreetype-dev libcairo2-dev libagg-dev libstb-dev fonts-dejavu-core
+                  libfreetype-dev libcairo2-dev libagg-dev libstb-dev fonts-dejavu-core \
+                  python3-fonttools python3-sympy
 # A peak of multiply-adds and a scalar kernel must stay what they are written as.
 BENCH_COMPILE   = $(COMPILE) -std=c11 -fno-tree-vectorize -fno-tree-slp-vectorize \
                   -I$(B)/emitted $(BENCH_EMITS:%=-I$(B)/bench.%)
@@ -258,6 +260,15 @@ $(B)/bench: $(BENCH_OBJECTS) $(BENCH_PEERS:=.o) $(BENCH_EMITS:%=$(B)/bench.%/ker
 
 bench: $(B)/bench
 	@$(B)/bench $(BENCH)
+
+# A minute, most of it SymPy's; a python3 that has both may not be the first one.
+bench-fonttools: $(B)/gen
+	@for python in python3 /usr/bin/python3; do \
+		if $$python -c 'import fontTools, sympy' 2>/dev/null; then \
+			PYTHONDONTWRITEBYTECODE=1 exec $$python bench/peer_fonttools.py $(B)/gen $(BENCH); \
+		fi; \
+	done; \
+	echo 'skip fontTools: it, or SymPy, is not installed (make deps-bench)'
 
 $(B)/origin: bench/origin.c bench/svg.c bench/svg.h library
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $(filter %.c,$^) $(LIB) $(LDFLAGS) -lm
