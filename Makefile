@@ -265,7 +265,7 @@ bench: $(B)/bench
 bench-fonttools: $(B)/gen
 	@for python in python3 /usr/bin/python3; do \
 		if $$python -c 'import fontTools, sympy' 2>/dev/null; then \
-			PYTHONDONTWRITEBYTECODE=1 exec $$python bench/peer_fonttools.py $(B)/gen $(BENCH); \
+			exec $$python bench/peer_fonttools.py $(B)/gen $(BENCH); \
 		fi; \
 	done; \
 	echo 'skip fontTools: it, or SymPy, is not installed (make deps-bench)'
@@ -273,7 +273,7 @@ bench-fonttools: $(B)/gen
 $(B)/origin: bench/origin.c bench/svg.c bench/svg.h library
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $(filter %.c,$^) $(LIB) $(LDFLAGS) -lm
 
-# The first ones need nothing, those below them FreeType and libpng. Speeds are those of this machine.
+# The first ones need nothing, those below them FreeType and libpng. Speeds are this machine's.
 pictures: $(B)/origin $(B)/bench plots
 	$(B)/origin bench/origin.svg
 	$(B)/bench --only kernels --svg bench/slots.svg

@@ -44,7 +44,8 @@ static void write_axes(Svg *svg, const Target *target)
 	}
 	svg_text(svg, "ink", panel.right + 10, panel.bottom + 19, "start", "degree N");
 	svg_text(svg, "ink", panel.right + 10, panel.bottom + 38, "start", "limit in slots");
-	svg_text(svg, "ink", panel.left, panel.top - 14, "start", "slots per edge, times the limit");
+	svg_text(svg, "ink", panel.left, panel.top - 14, "start",
+		"slots per edge, times the limit");
 	svg_text(svg, "soft", panel.left, panel.bottom + 64, "start", "slot: one multiply-add "
 		"on a vector of the target's width, at the rate measured beside the kernel");
 }

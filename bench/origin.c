@@ -217,7 +217,8 @@ static const struct {
 /* 1, 10, 10 to the power of ... */
 static const char *power_of_ten(int exponent, char text[SIZE])
 {
-	static const char *const digits[] = { "⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹" };
+	static const char *const digits[] = { "⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷",
+		"⁸", "⁹" };
 	const int size = exponent < 0 ? -exponent : exponent;
 	if (exponent == 0 || exponent == 1)
 		snprintf(text, SIZE, "%s", exponent ? "10" : "1");

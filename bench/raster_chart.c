@@ -65,8 +65,8 @@ static int write_series(Svg *svg, int series, SvgLabel *label)
 	snprintf(label->text, sizeof label->text, "%s", looks[series].text);
 	if (size[count - 1] >= FIRST << (SIZES - 1))
 		return 1;
-	svg_text(svg, label->kind, svg_x(&panel, size[count - 1]) + 10, label->y + 4.5, "start", "%s",
-		label->text);
+	svg_text(svg, label->kind, svg_x(&panel, size[count - 1]) + 10, label->y + 4.5, "start",
+		"%s", label->text);
 	return 0;
 }
 
@@ -96,8 +96,8 @@ int raster_chart_write(const char *file)
 	}
 	if (!svg_open(&svg, file, WIDE, HIGH, title))
 		return 0;
-	svg_headline(&svg, title, "The glyphs of DejaVuSans in turn as polygons, clearing included; "
-		"other libraries draw a box to bytes");
+	svg_headline(&svg, title, "The glyphs of DejaVuSans in turn as polygons, clearing "
+		"included; other libraries draw a box to bytes");
 	svg_panel(&svg, &panel);
 	write_axes(&svg);
 	for (int series = CHART_SERIES - 1; series >= 0; --series)

@@ -19,11 +19,13 @@ static const char style[] =
 	".line{fill:none;stroke:currentColor;stroke-width:2;stroke-linejoin:round}"
 	".bold{stroke-width:2.8}.thin{stroke-width:1.4}.dash{stroke-dasharray:6 4}\n"
 	".mark{fill:currentColor;stroke:#ffffff;stroke-width:1.2}"
-	".name{fill:currentColor;font-weight:600;paint-order:stroke;stroke:#ffffff;stroke-width:4}\n"
+	".name{fill:currentColor;font-weight:600;"
+	"paint-order:stroke;stroke:#ffffff;stroke-width:4}\n"
 	"text{font:13px system-ui,-apple-system,\"Segoe UI\",\"DejaVu Sans\",sans-serif}"
 	".title{font-size:18px;font-weight:600}\n"
 	"@media (prefers-color-scheme:dark){.page{fill:#0d1117}.ink{fill:#f0f6fc}"
-	".soft{fill:#9198a1}\n.grid{stroke:#2a313a}.limit{stroke:#9198a1}.mark,.name{stroke:#0d1117}\n"
+	".soft{fill:#9198a1}\n.grid{stroke:#2a313a}.limit{stroke:#9198a1}"
+	".mark,.name{stroke:#0d1117}\n"
 	".c0{color:#58a6ff}.c1{color:#ff7b72}.c2{color:#3fb950}.c3{color:#bc8cff}"
 	".c4{color:#d4a72c}.c5{color:#9198a1}}\n"
 	"</style>\n";
@@ -178,11 +180,11 @@ void svg_line(Svg *svg, const SvgPanel *panel, const char *kind, const double *x
 	fprintf(svg->out, "<path class=\"line %s\" clip-path=\"url(#p%.0f)\" d=\"", kind,
 		panel->left);
 	for (int i = 0; i < count; ++i) {
-		const int there = !isnan(y[i]);
-		if (there)
+		const double height = svg_y(panel, y[i]);
+		if (isfinite(height))
 			fprintf(svg->out, "%s%.1f %.1f", down ? "L" : "M", svg_x(panel, x[i]),
-				svg_y(panel, y[i]));
-		down = there;
+				height);
+		down = isfinite(height);
 	}
 	fprintf(svg->out, "\"/>\n");
 }
@@ -198,7 +200,7 @@ void svg_marks(Svg *svg, const SvgPanel *panel, const char *kind, int shape, con
 	fprintf(svg->out, "<path class=\"mark %s\" clip-path=\"url(#p%.0f)\" d=\"", kind,
 		panel->left);
 	for (int i = 0; i < count; ++i)
-		if (!isnan(y[i]))
+		if (isfinite(svg_y(panel, y[i])))
 			fprintf(svg->out, "M%.1f %.1f%s", svg_x(panel, x[i]), svg_y(panel, y[i]),
 				shapes[shape % SHAPES]);
 	fprintf(svg->out, "\"/>\n");
@@ -210,7 +212,7 @@ static int by_height(const void *a, const void *b)
 	return (first > second) - (first < second);
 }
 
-/* Neighbours that touch give way by half of what is missing each, until nothing moves to speak of. */
+/* Neighbours that touch give way, each by half of what is missing, again and again. */
 void svg_labels(Svg *svg, const SvgPanel *panel, SvgLabel *label, int count)
 {
 	enum { ROUNDS = 200 };

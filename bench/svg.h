@@ -49,7 +49,7 @@ void svg_tick_y(Svg *svg, const SvgPanel *panel, const char *kind, double at,
 	const char *pattern, ...);
 void svg_axis_titles(Svg *svg, const SvgPanel *panel, const char *x, const char *y);
 
-/* NAN interrupts a line and has no mark. */
+/* What has no place on the axis, such as NAN, interrupts a line and has no mark. */
 void svg_line(Svg *svg, const SvgPanel *panel, const char *kind, const double *x,
 	const double *y, int count);
 void svg_marks(Svg *svg, const SvgPanel *panel, const char *kind, int shape, const double *x,
