@@ -220,6 +220,7 @@ int  spec_degree(const char *text);          /* 0 .. MAX_DEGREE */
 unsigned spec_list(const char *option, const char *text, const char *const *words, int count);
 void spec_prefix(const char *text);
 char *spec_files(const Request *request);    /* comments: the files that the command names */
+const char *const *spec_paths(const Request *request);   /* of these files; ends with NULL */
 int  spec_has_rings(const Request *request);
 void spec_complete(Request *request);        /* defaults, monomials of the family, names, command */
 
@@ -637,10 +638,14 @@ Text bundle_depfile(const Files *outputs, const Request *request);
 
 /* ---- deliver.c: the only file that writes to disk -------------------------------------------- */
 
-typedef struct { const char *out, *manifest; int check, dry_run, verbose, quiet; } Delivery;
+typedef struct {
+	const char *out, *manifest;
+	const char *const *sources;          /* files that were read; ends with NULL */
+	int check, dry_run, verbose, quiet;
+} Delivery;
 
 /* `folder` goes to directory out (NULL: no directory) under a manifest that names what gen wrote
- * there; `single` are paths of their own. Returns the exit status. */
+ * there; `single` are paths of their own. No source is written over. Returns the exit status. */
 int deliver(const Files *folder, const Files *single, const Delivery *how);
 
 #endif

@@ -360,6 +360,7 @@ static int emit(const Options *o)
 	Text manifest = bundle_manifest(&files, request, &kernels);
 	Delivery how = o->delivery;
 	how.manifest = bundle_name("edgewise_manifest.json", request->prefix);
+	how.sources = spec_paths(request);
 	if (o->single_header) {
 		add_file(&single, o->single_header, bundle_single_header(&files, request));
 		file_new(&outputs, o->single_header);

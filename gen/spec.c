@@ -195,6 +195,16 @@ char *spec_files(const Request *request)
 	return text_take(&text);
 }
 
+const char *const *spec_paths(const Request *request)
+{
+	const char **paths = allocate((size_t)(request->filters + 1) * sizeof *paths);
+	int count = 0;
+	for (int i = 0; i < request->filters; ++i)
+		if (request->filter[i].path)
+			paths[count++] = request->filter[i].path;
+	return paths;
+}
+
 int spec_has_rings(const Request *request)
 {
 	return request->families || request->polynomials || request->filters
