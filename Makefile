@@ -2,14 +2,18 @@
 #   make             build gen, emit, build build/libedgewise.a, run examples/shapes on real data
 #   make deps        install what the tests need (Debian: apt-get)
 #   make test        all tests            make bench       against machine and peers
+#   make bench-fonttools                  beside fontTools' symfont and MomentsPen
 #   make cutcell     examples/cutcell: moments of cut cells, to degree CELL_DEGREE=4
 #   make section     examples/section: section properties of profiles
 #   make glyphs      examples/glyphs, which needs FreeType
 #   make render      examples/render, which needs FreeType and libpng; make sheet, make plots:
 #                    its contact sheet, and the plots of the filters in examples/filters
+#   make playground  build/playground/index.html: a page to draw regions on (clang, lld, wasi-libc)
+#   make pictures    all pictures of the documentation, from the programs that measure and draw
 #   make filters     the library and render with filters of yours: FILTER='my.filter other.filter'
 #   make generated   emit generated/ anew make layers      no object refers upwards in the pipeline
 #   make accept      accept new golden outputs             make clean
+#   make deps-playground test-playground  what the page needs, and its tests in Chromium
 #   make test-cross  the same bits on other machines       make accept-hashes  accept new bits
 # Variables: CC CFLAGS LDFLAGS B (build directory) SAN=1
 # (address and undefined-behaviour sanitizers)
@@ -44,7 +48,8 @@ SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
 MATH    := -lmpfr -lgmp -lm
 
 .PHONY: all library objects generated cutcell section glyphs glyphs-if-freetype render \
-        render-if-libraries sheet plots filters FORCE test test-cross deps bench deps-bench layers accept accept-hashes clean
+        render-if-libraries sheet plots pictures libraries-of-pictures filters FORCE test \
+        test-cross deps bench bench-fonttools deps-bench layers accept accept-hashes clean
 .DELETE_ON_ERROR:
 
 all: library $(B)/shapes render-if-libraries
@@ -171,9 +176,12 @@ render: $(B)/render
 sheet: $(B)/render
 	$(B)/render sheet examples/render/sheet.png
 
+HAS_RENDER_LIBRARIES = \
+	printf '\#include <ft2build.h>\n\#include <stdio.h>\n\#include <png.h>\n' | \
+	$(CC) -x c -fsyntax-only $(FREETYPE) $(PNG) - 2>/dev/null
+
 render-if-libraries:
-	@if printf '#include <ft2build.h>\n#include <stdio.h>\n#include <png.h>\n' | \
-		$(CC) -x c -fsyntax-only $(FREETYPE) $(PNG) - 2>/dev/null; then \
+	@if $(HAS_RENDER_LIBRARIES); then \
 		$(MAKE) --no-print-directory render; \
 	else \
 		rm -f $(B)/render $(B)/filters/render; \
@@ -206,15 +214,72 @@ $(B)/filters/render: $(RENDER) examples/render/render.h examples/utf8.h \
 # plot reads filters as gen does. Beside each of ours stands one that is built in.
 PLOTS := bspline5:bspline3 quintic:mitchell disc:bspline3
 
-$(B)/plot: examples/filters/plot.c $(filter-out %/main.o %/deliver.o %/bundle.o,$(GEN_OBJ)) \
-		$(B)/obj/embedded_filters.o
-	$(COMPILE) -std=c11 -D_POSIX_C_SOURCE=200809L -Igen -o $@ $^ $(LDFLAGS) -lm
+$(B)/plot: examples/filters/plot.c bench/svg.c bench/svg.h \
+		$(filter-out %/main.o %/deliver.o %/bundle.o,$(GEN_OBJ)) $(B)/obj/embedded_filters.o
+	$(COMPILE) -std=c11 -D_POSIX_C_SOURCE=200809L -Igen -Ibench -o $@ $(filter-out %.h,$^) \
+		$(LDFLAGS) -lm
 
 plots: $(B)/plot
 	for pair in $(PLOTS); do \
 		name=examples/filters/$${pair%:*}; \
 		$(B)/plot $$name.filter $${pair#*:} $$name.svg || exit 1; \
 	done
+
+# ---- the playground: a page in one file, with the kernels as WebAssembly in it ----
+
+.PHONY: playground playground-if-tools test-playground deps-playground
+
+PLAYGROUND := $(addprefix examples/playground/,pack.sh index.html style.css library.js shape.js \
+              text.js figure.js terms.js region.js pictures.js below.js main.js)
+
+# What the page calls by itself, besides playground.c.
+PLAYGROUND_CALLS := below line_coverage line_area quad_area conic_area cubic_area
+
+$(B)/playground:
+	@mkdir -p $@
+
+$(B)/playground/emitted.stamp: $(B)/gen | $(B)/playground
+	$(B)/gen --max-degree 2 --families moments,curves,distance,coverage --filter box \
+		--filter tent --filter mitchell --precision double --targets wasm128 --quiet \
+		--out $(B)/playground/emitted
+	@touch $@
+
+$(B)/playground/edgewise.wasm: examples/playground/playground.c $(B)/playground/emitted.stamp
+	clang --target=wasm32-wasi -msimd128 -std=c11 $(STRICT) -ffp-contract=off -Oz \
+		-fvisibility=hidden -ffunction-sections -fdata-sections -I$(B)/playground/emitted \
+		-nostartfiles -Wl,--no-entry,--gc-sections,--strip-all,--export-dynamic \
+		$(PLAYGROUND_CALLS:%=-Wl,--export=ew_%) \
+		-o $@ $< $(B)/playground/emitted/*.c -lm
+
+$(B)/playground/index.html: $(B)/playground/edgewise.wasm $(PLAYGROUND)
+	sh examples/playground/pack.sh $< >$@
+
+playground: $(B)/playground/index.html
+
+$(B)/tests/playground: tests/playground.c library | $(B)/tests
+	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
+
+playground-if-tools:
+	@if echo '#include <math.h>' | clang --target=wasm32-wasi -x c -fsyntax-only - 2>/dev/null && \
+		command -v wasm-ld >/dev/null; then \
+		$(MAKE) --no-print-directory playground; \
+	else \
+		rm -f $(B)/playground/index.html; \
+	fi
+
+test-playground: $(B)/tests/playground playground-if-tools
+	@sh tests/run.sh $(B)/tests/logs 'playground: sh tests/playground.sh $(B)'
+
+# The browser is Debian's; what steers it is one package of npm, for this folder only.
+PLAYWRIGHT := playwright-core@1.56.1
+
+deps-playground:
+	@$(MAKE) --no-print-directory deps PACKAGES='clang lld wasi-libc libclang-rt-14-dev-wasm32 \
+		chromium $(shell command -v node >/dev/null || echo nodejs) \
+		$(shell command -v npm >/dev/null || echo npm)'
+	@mkdir -p $(B)/playground
+	@cd $(B)/playground && PLAYWRIGHT_SKIP_BROWSER_DOWNLOAD=1 npm install --silent --no-audit \
+		--no-fund --prefix . $(PLAYWRIGHT)
 
 # ---- bench: make bench BENCH='--quick --json FILE'; peers are optional (make deps-bench) ----
 
@@ -227,9 +292,10 @@ PEER_CXX   := $(CXX) -x c++ -Wall -Wextra $(PEER_FLAGS)
 BENCH_PARTS    := bench measure table vectors targets polygons kernels order schemes trust streams \
                   batches contest curves paths distance raster_scenes raster_exact raster_race \
                   raster_contest raster_tables raster_filters raster_windows raster_downsample \
-                  raster_chart raster chart
+                  raster_chart raster chart svg
 BENCH_PACKAGES := g++ libgeos-dev libboost-dev libcgal-dev libopencv-imgproc-dev \
-                  libfreetype-dev libcairo2-dev libagg-dev libstb-dev fonts-dejavu-core
+                  libfreetype-dev libcairo2-dev libagg-dev libstb-dev fonts-dejavu-core \
+                  python3-fonttools python3-sympy
 # A peak of multiply-adds and a scalar kernel must stay what they are written as.
 BENCH_COMPILE   = $(COMPILE) -std=c11 -fno-tree-vectorize -fno-tree-slp-vectorize \
                   -I$(B)/emitted $(BENCH_EMITS:%=-I$(B)/bench.%)
@@ -258,7 +324,7 @@ $(B)/bench.%/kernels.a: $(B)/bench.%.stamp
 $(B)/bench.obj:
 	@mkdir -p $@
 
-$(B)/bench.obj/%.o: bench/%.c bench/bench.h bench/peers.h bench/raster.h \
+$(B)/bench.obj/%.o: bench/%.c bench/bench.h bench/peers.h bench/raster.h bench/svg.h \
 		bench/vector_template.h \
 		$(B)/emitted.stamp $(BENCH_EMITS:%=$(B)/bench.%.stamp) | $(B)/bench.obj
 	$(BENCH_COMPILE) -c -o $@ $<
@@ -293,6 +359,33 @@ $(B)/bench: $(BENCH_OBJECTS) $(BENCH_PEERS:=.o) $(BENCH_EMITS:%=$(B)/bench.%/ker
 
 bench: $(B)/bench
 	@$(B)/bench $(BENCH)
+
+# A minute, most of it SymPy's; a python3 that has both may not be the first one.
+bench-fonttools: $(B)/gen
+	@for python in python3 /usr/bin/python3; do \
+		if $$python -c 'import fontTools, sympy' 2>/dev/null; then \
+			exec $$python bench/peer_fonttools.py $(B)/gen $(BENCH); \
+		fi; \
+	done; \
+	echo 'skip fontTools: it, or SymPy, is not installed (make deps-bench)'
+
+$(B)/origin: bench/origin.c bench/svg.c bench/svg.h library
+	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $(filter %.c,$^) $(LIB) $(LDFLAGS) -lm
+
+# The first ones need nothing, those below them FreeType and libpng. Speeds are this machine's.
+pictures: $(B)/origin $(B)/bench plots
+	$(B)/origin bench/origin.svg
+	$(B)/bench --only kernels --svg bench/slots.svg
+	@$(MAKE) --no-print-directory libraries-of-pictures
+	$(B)/bench --only raster --svg-raster bench/raster.svg
+	@$(MAKE) --no-print-directory sheet
+
+libraries-of-pictures:
+	@if ! $(HAS_RENDER_LIBRARIES); then \
+		echo 'bench/raster.svg and examples/render/sheet.png need FreeType and libpng:' \
+			'make deps deps-bench'; \
+		exit 1; \
+	fi
 
 deps-bench:
 	@$(MAKE) --no-print-directory deps PACKAGES='$(BENCH_PACKAGES)'
@@ -371,8 +464,8 @@ $(B)/tests/monomials: tests/monomials.c tests/reference.c $(B)/monomials.stamp |
 $(B)/tests/%: tests/%.c tests/reference.c $(wildcard tests/*.h) library | $(B)/tests
 	$(TEST_BUILD) -I$(B)/emitted -o $@ $(filter %.c,$^) $(LIB) $(LDFLAGS) $(MATH)
 
-test: $(PROGRAMS) $(B)/shapes $(B)/cutcell $(B)/section $(B)/plot glyphs-if-freetype \
-		render-if-libraries
+test: $(PROGRAMS) $(B)/shapes $(B)/cutcell $(B)/section $(B)/plot $(B)/origin \
+		glyphs-if-freetype render-if-libraries
 	@if [ -x $(B)/render ]; then $(MAKE) --no-print-directory filters; fi
 	@sh tests/run.sh $(B)/tests/logs \
 		'layers: sh tests/layers.sh $(B) "$(GEN)"' \
@@ -388,6 +481,7 @@ test: $(PROGRAMS) $(B)/shapes $(B)/cutcell $(B)/section $(B)/plot glyphs-if-free
 		'cutcell: sh tests/cutcell.sh $(B)' 'section: sh tests/section.sh $(B)' \
 		'shapes: $(B)/shapes --exact examples/data/countries.txt | $(B)/tests/shapes' \
 		'glyphs: sh tests/glyphs.sh $(B)' 'render: sh tests/render.sh $(B)' \
+		'pictures: sh tests/pictures.sh $(B)' \
 		'command-line: sh tests/cli.sh $(B)/gen' \
 		'same-output: sh tests/same_output.sh $(B)' \
 		'mutation: sh tests/mutation.sh $(B)' 'matrix: sh tests/matrix.sh $(B)' \
@@ -414,6 +508,7 @@ accept: $(B)/gen
 PACKAGES := gcc g++ clang libclang-rt-14-dev tcc make binutils libc6-dev libgmp-dev libmpfr-dev \
             gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-i686-linux-gnu \
             libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user \
+            lld wasi-libc libclang-rt-14-dev-wasm32 nodejs \
             libfreetype-dev libpng-dev pkg-config fonts-dejavu-core fonts-gfs-didot \
             python3-fonttools python3-munkres mandoc bash
 deps:

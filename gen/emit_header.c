@@ -123,8 +123,8 @@ static const Entry rings[] = {
 	{ has_area,
 	"Area about (0,0) as if summed in twice the precision (Dot2: Ogita, Rump, Oishi 2005): "
 	"faithful as long as sum |x_i y_(i+1)| + |x_(i+1) y_i| <= |2 area| 2^52 / (4 n^2) "
-	"(float: 2^23 / (4 n^2)) and products neither underflow nor overflow (portable: coordinates "
-	"below 2^996, float 2^115).",
+	"(float: 2^23 / (4 n^2)) and products neither underflow nor overflow (portable, wasm128: "
+	"coordinates below 2^996, float 2^115).",
 	"REAL ew_area_compensated@(const REAL *x, const REAL *y, size_t n)" },
 	{ has_area,
 	"Areas of many rings; ring i has the vertices offsets[i] .. offsets[i+1] - 1, as in GeoArrow "
@@ -353,7 +353,7 @@ static const char *const PREAMBLE =
 	"are never changed, nothing but images allocates, every function is reentrant. Functions ending in f "
 	"take and return float. u is 2^-53 (float: 2^-24) and gamma_k is k u / (1 - k u).\n\n"
 	"Results have the same bits on every CPU and target with fused multiply-add; portable "
-	"alone may differ.";
+	"and wasm128, which have none, may differ.";
 
 static void add_macros(Text *text, const Request *request)
 {

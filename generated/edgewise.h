@@ -25,8 +25,8 @@
  * nothing but images allocates, every function is reentrant. Functions ending in f take and
  * return float. u is 2^-53 (float: 2^-24) and gamma_k is k u / (1 - k u).
  *
- * Results have the same bits on every CPU and target with fused multiply-add; portable alone may
- * differ. */
+ * Results have the same bits on every CPU and target with fused multiply-add; portable and
+ * wasm128, which have none, may differ. */
 
 #define EW_VERSION "0.1.0"
 #define EW_MAX_DEGREE 8
@@ -132,8 +132,8 @@ int ew_moments_boundedf(int degree, const float *x, const float *y, size_t n, fl
 
 /* Area about (0,0) as if summed in twice the precision (Dot2: Ogita, Rump, Oishi 2005): faithful
  * as long as sum |x_i y_(i+1)| + |x_(i+1) y_i| <= |2 area| 2^52 / (4 n^2) (float: 2^23 / (4
- * n^2)) and products neither underflow nor overflow (portable: coordinates below 2^996, float
- * 2^115). */
+ * n^2)) and products neither underflow nor overflow (portable, wasm128: coordinates below 2^996,
+ * float 2^115). */
 double ew_area_compensated(const double *x, const double *y, size_t n);
 float ew_area_compensatedf(const float *x, const float *y, size_t n);
 

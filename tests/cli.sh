@@ -228,9 +228,9 @@ targets() {
 	diff -r with both
 	[ -f both/edgewise_moments_fma.c ]
 	find both -name '*avx*' | refute grep .
-	gen --max-degree 1 --targets portable,fma,avx2,avx512,neon --out all
+	gen --max-degree 1 --targets portable,fma,avx2,avx512,neon,wasm128 --out all
 	gen --max-degree 1 --check --out all
-	find d -name '*fma*' -o -name '*avx*' -o -name '*neon*' | refute grep .
+	find d -name '*fma*' -o -name '*avx*' -o -name '*neon*' -o -name '*wasm*' | refute grep .
 	cat >main.c <<-END
 		#include "edgewise.h"
 		int main(void) { return ew_targets() != EW_PORTABLE; }
