@@ -17,6 +17,8 @@
 #   make accept      accept new golden outputs             make clean
 #   make deps-playground test-playground  what the page needs, and its tests in Chromium
 #   make test-cross  the same bits on other machines       make accept-hashes  accept new bits
+#   make test-vendor all ways into the builds of others: C libraries, systems, CMake, Meson, wasm,
+#                    packages (make deps-vendor)
 # Variables: CC CFLAGS LDFLAGS B (build directory) SAN=1
 # (address and undefined-behaviour sanitizers)
 
@@ -50,8 +52,9 @@ SOURCES  = $(sort $(wildcard $(B)/emitted/*.c))
 MATH    := -lmpfr -lgmp -lm
 
 .PHONY: all library objects generated cutcell section glyphs glyphs-if-freetype render \
-        render-if-libraries sheet plots pictures libraries-of-pictures filters FORCE test \
-        test-cross deps bench bench-fonttools deps-bench layers accept accept-hashes clean
+        render-if-libraries sheet plots pictures libraries-of-pictures filters FORCE shared \
+        shared-library install uninstall test test-cross test-vendor deps deps-vendor bench \
+        bench-fonttools deps-bench layers accept accept-hashes clean
 .DELETE_ON_ERROR:
 
 all: library $(B)/shapes render-if-libraries
@@ -144,10 +147,10 @@ shared: $(B)/emitted.stamp
 # The folders are those of this run, so these files are written each time.
 .PHONY: $(PACKAGE)
 $(PACKAGE): $(B)/package/%: runtime/package/%.in | $(B)/package
-	@sed 's|@VERSION@|$(VERSION)|g; s|@ABI@|$(ABI)|g; s|@PREFIX@|$(PREFIX)|; \
-		s|@BINDIR@|$(BINDIR)|; s|@CMAKEDIR@|$(CMAKEDIR)|; \
-		s|@INCLUDEDIR@|$(call OF_PACKAGE,$@,$(INCLUDEDIR))|; \
-		s|@LIBDIR@|$(call OF_PACKAGE,$@,$(LIBDIR))|' $< >$@
+	@sed -e 's|@VERSION@|$(VERSION)|' -e 's|@ABI@|$(ABI)|' -e 's|@PREFIX@|$(PREFIX)|' \
+		-e 's|@BINDIR@|$(BINDIR)|' -e 's|@CMAKEDIR@|$(CMAKEDIR)|' \
+		-e 's|@INCLUDEDIR@|$(call OF_PACKAGE,$@,$(INCLUDEDIR))|' \
+		-e 's|@LIBDIR@|$(call OF_PACKAGE,$@,$(LIBDIR))|' $< >$@
 
 # FILE FOLDER: pkg-config has a variable for the prefix.
 OF_PACKAGE = $(if $(filter %.pc,$1),$(2:$(PREFIX)/%=$${prefix}/%),$2)
@@ -564,7 +567,20 @@ test: $(PROGRAMS) $(B)/shapes $(B)/cutcell $(B)/section $(B)/plot $(B)/origin \
 		'command-line: sh tests/cli.sh $(B)/gen' \
 		'same-output: sh tests/same_output.sh $(B)' \
 		'mutation: sh tests/mutation.sh $(B)' 'matrix: sh tests/matrix.sh $(B)' \
-		'msvc: sh tests/msvc.sh $(B)'
+		'msvc: sh tests/msvc.sh $(B)' \
+		'vendor: sh tests/vendor.sh $(B) area/cc header/c99 header/c++17 two/cc'
+
+# All ways from an empty folder to a program, other C libraries and systems, build systems, and
+# what is installed; then what all that brings into a program.
+test-vendor: library
+	@sh tests/run.sh $(B)/tests/logs 'ways: sh tests/vendor.sh $(B)' \
+		'symbols: sh tests/symbols.sh $(B)'
+
+VENDOR_PACKAGES := gcc g++ clang tcc make binutils libc6-dev musl-tools gcc-i686-linux-gnu \
+                   libc6-dev-i386-cross qemu-user gcc-mingw-w64-x86-64 wine wine64 lld wasi-libc \
+                   libclang-rt-14-dev-wasm32 nodejs pkg-config cmake ninja-build meson
+deps-vendor:
+	@$(MAKE) --no-print-directory deps PACKAGES='$(VENDOR_PACKAGES)'
 
 # The emitted library on other machines, by cross compilers and qemu, against tests/hashes.txt.
 test-cross: library
