@@ -31,13 +31,14 @@ links() {
 	"$@" -static -o "$work/probe" "$work/probe.c" -lm >/dev/null 2>&1
 }
 
-# program COMPILER FLAGS...: sets $folder, which then holds the program `hash`, or `log` alone
+# program COMPILER FLAGS...: sets $folder, which then holds the program `hash.exe` (compilers for
+# Windows insist on that name), or `log` alone
 program() {
 	folder=$work/$(echo "$*" | tr -d ' /')
 	[ -d "$folder" ] && return
 	mkdir "$folder" || exit 1
 	( cd "$folder" && "$@" $STRICT -I"$emitted" -c "$emitted"/*.c "$tests/hash.c" &&
-		"$@" -static -o hash ./*.o -lm ) >"$folder/log" 2>&1 || rm -f "$folder/hash"
+		"$@" -static -o hash.exe ./*.o -lm ) >"$folder/log" 2>&1 || rm -f "$folder/hash.exe"
 	rm -f "$folder"/*.o
 }
 
@@ -50,11 +51,11 @@ results() {
 	done
 	links "$@" || { skip "$name" "$1 has no static C library for it"; return 1; }
 	program "$@"
-	if [ ! -x "$folder/hash" ]; then
+	if [ ! -x "$folder/hash.exe" ]; then
 		verdict "$name compiles" "$(grep -E -m 1 'error|warning|undefined|cannot find' \
 			"$folder/log" || tail -n 1 "$folder/log")"
 		return 1
-	elif ! $emulator "$folder/hash" >"$work/$name" 2>"$work/log"; then
+	elif ! $emulator "$folder/hash.exe" >"$work/$name" 2>"$work/log"; then
 		verdict "$name runs" "$(tail -n 1 "$work/log")"
 		return 1
 	fi
@@ -170,6 +171,18 @@ test_machines() {
 		clang --target=wasm32-wasi -std=c99 -O2
 }
 
+# windows PROGRAM: on this CPU, whose targets it finds, but with the calling convention, the stack
+# and the C library of Windows. Lines end in CR there.
+windows() {
+	WINEPREFIX=$work/wine WINEDEBUG=-all wine "$1" >"$work/lines" && tr -d '\r' <"$work/lines"
+}
+
+test_windows() {
+	has wine || { skip windows "wine is not installed"; return; }
+	machine windows any windows x86_64-w64-mingw32-gcc -std=c99 -O2
+	[ ! -d "$work/wine" ] || WINEPREFIX=$work/wine wineserver -k -w
+}
+
 # A control: with all committed hashes altered, each line of this machine must be reported.
 test_control() {
 	[ -s "$work/native" ] || return
@@ -207,6 +220,7 @@ if [ "${2:-}" = accept ]; then
 	accept
 else
 	test_machines
+	test_windows
 	test_control
 	test_x87
 fi
