@@ -1,6 +1,7 @@
 #!/bin/sh
 # cli.sh - the command line of gen: every option and, from cli_errors.sh beside it, every error;
-# cli_filters.sh has filter files.
+# cli_filters.sh has filter files. What emissions bring into a program is asked by symbols.sh, and
+# two of them in one program are a way of vendor.sh.
 #
 #     sh tests/cli.sh [GEN]        (default: build/gen; CC and CXX choose the compilers)
 #
@@ -245,9 +246,6 @@ prefix() {
 	find foo -type f ! -name 'foo*' | refute grep .
 	grep -rnE '(^|[^A-Za-z0-9_])(ew|EW)(_|[^A-Za-z0-9]|$)' foo | refute grep .
 	refute grep -rniE 'edgewise' foo
-	gen --prefix foo --max-degree 2 --polynomial soft=x*y --targets portable --out small
-	build small
-	symbols alone | refute grep -v '^foo_'
 	gen --prefix foo --single-header foo.h
 	refute grep -niE '(^|[^a-z0-9_])ew_|edgewise' foo.h
 }
@@ -300,17 +298,6 @@ area_of_any_scheme() {
 	done
 }
 check area_of_any_scheme
-
-two_prefixes_in_one_program() {
-	gen --prefix foo --max-degree 2 --families moments --targets portable,avx2 --out foo
-	gen --prefix bar --max-degree 1 --edges quad --targets portable --out bar
-	area_program foo.h foo_ | sed 's/main/foo/' >foo.c
-	area_program bar.h bar_ | sed 's/main/bar/' >bar.c
-	echo 'int foo(void); int bar(void); int main(void) { return foo() || bar(); }' >main.c
-	$CC -I foo -I bar -o main main.c foo.c bar.c foo/*.c bar/*.c -lm
-	./main
-}
-check two_prefixes_in_one_program
 
 # ---- families and kinds of edges ----
 
