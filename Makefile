@@ -121,7 +121,8 @@ VERSION := $(shell sed -n 's/^.define GEN_VERSION "\(.*\)"/\1/p' gen/gen.h)
 NUMBERS := $(subst ., ,$(VERSION))
 ABI     := $(if $(filter 0,$(firstword $(NUMBERS))),0.$(word 2,$(NUMBERS)),$(firstword $(NUMBERS)))
 SHARED  := $(B)/libedgewise.so.$(VERSION)
-PACKAGE := $(addprefix $(B)/package/,edgewise.pc edgewise-config.cmake edgewise-config-version.cmake)
+PACKAGE := $(addprefix $(B)/package/,edgewise.pc edgewise-config.cmake \
+             edgewise-config-version.cmake)
 
 $(B)/pic $(B)/package:
 	@mkdir -p $@
@@ -156,15 +157,14 @@ $(PACKAGE): $(B)/package/%: runtime/package/%.in | $(B)/package
 OF_PACKAGE = $(if $(filter %.pc,$1),$(2:$(PREFIX)/%=$${prefix}/%),$2)
 
 # mode:file:place
-INSTALLED  = 755:$(B)/gen:$(BINDIR)/edgewise-gen \
+INSTALLED := 755:$(B)/gen:$(BINDIR)/edgewise-gen \
              644:$(B)/emitted/edgewise.h:$(INCLUDEDIR)/edgewise.h \
              644:$(LIB):$(LIBDIR)/libedgewise.a \
              755:$(SHARED):$(LIBDIR)/libedgewise.so.$(VERSION) \
              644:$(B)/package/edgewise.pc:$(PKGCONFIGDIR)/edgewise.pc \
              $(foreach f,config config-version, \
              644:$(B)/package/edgewise-$f.cmake:$(CMAKEDIR)/edgewise-$f.cmake) \
-             $(foreach m,$(MANUALS),$(if $(wildcard $(word 2,$(subst :, ,$m))),$m))
-MANUALS   := 644:gen/edgewise-gen.1:$(MANDIR)/man1/edgewise-gen.1 \
+             644:gen/edgewise-gen.1:$(MANDIR)/man1/edgewise-gen.1 \
              644:runtime/edgewise.3:$(MANDIR)/man3/edgewise.3 \
              644:gen/edgewise-gen.bash:$(COMPLETIONDIR)/edgewise-gen
 LINKS     := $(LIBDIR)/libedgewise.so.$(ABI) $(LIBDIR)/libedgewise.so

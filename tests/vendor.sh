@@ -4,9 +4,10 @@
 # A folder of tests/vendor is what a user has in a repository of their own; each of its files
 # WAY.commands is one way to build it. The first lines say which tools that needs and what must be
 # printed; of the rest at most three build a program and the last one runs it. All are run as they
-# stand there, in a copy of the folder. Only `make install` comes before those that need `installed`,
-# as the administrator's part. Without names all ways are taken, and what holds of an
-# installation, of rebuilding and of a single header is tested too.
+# stand there, in a copy of the folder. `make install` is the administrator's part and comes before
+# those that need `installed`. Without names all ways are taken, and what holds of an installation,
+# of rebuilding and of a single header is tested too. The way of MSVC ends before the linker, in
+# msvc.sh.
 set -u
 build=$(cd "${1:-build}" && pwd) || exit 1
 [ $# -eq 0 ] || shift
@@ -137,11 +138,26 @@ in_stage() {
 	make_here "$1" DESTDIR="$work/stage" PREFIX=/opt/edgewise LIBDIR=/opt/edgewise/lib64
 }
 
-# What a packager gets: nothing outside of the prefix, no path of the machine that built it, a package
-# that finds itself wherever it is unpacked, and nothing left behind.
+# What a packager gets: nothing outside of the prefix, no path of the machine that built it, a
+# package that finds itself wherever it is unpacked, and nothing left behind.
 test_staging() {
 	stage=$work/stage/opt/edgewise
 	verdict 'installed into a stage' "$(in_stage install
+		(cd "$stage" && find . ! -type d | sort) >"$work/files"
+		diff - "$work/files" <<-END | sed -n 2p
+			./bin/edgewise-gen
+			./include/edgewise.h
+			./lib64/cmake/edgewise/edgewise-config-version.cmake
+			./lib64/cmake/edgewise/edgewise-config.cmake
+			./lib64/libedgewise.a
+			./lib64/libedgewise.so
+			./lib64/libedgewise.so.$abi
+			./lib64/libedgewise.so.$version
+			./lib64/pkgconfig/edgewise.pc
+			./share/bash-completion/completions/edgewise-gen
+			./share/man/man1/edgewise-gen.1
+			./share/man/man3/edgewise.3
+		END
 		find "$work/stage" -type f ! -path "$stage/*" | head -n 1
 		grep -rlF -e "$work" -e "$build" "$stage" | head -n 1)"
 	verdict 'pkg-config file of a stage' "$(
