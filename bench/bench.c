@@ -27,7 +27,7 @@ static int usage(FILE *out, int status)
 	for (int i = 0; i < SECTIONS; ++i)
 		fprintf(out, " %s", sections[i].name);
 	fprintf(out, "\n  --json FILE        all figures\n"
-		"  --svg FILE         plot of slots per edge against the operation count; needs "
+		"  --svg FILE         plot of slots per edge against their limit; needs "
 		"the kernels\n"
 		"  --svg-raster FILE  plot of times FreeType's speed over the size of glyphs; "
 		"needs the raster\n");

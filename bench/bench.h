@@ -164,11 +164,6 @@ void section_raster(const Effort *effort);     /* raster.c, and what raster.h na
 
 /* ---- chart.c ---- */
 
-void svg_page(FILE *out, int wide, int high, const char *title);       /* up to </svg> */
-__attribute__((format(printf, 6, 7)))
-void svg_text(FILE *out, const char *kind, double x, double y, const char *anchor,
-	const char *format, ...);
-void svg_mark(FILE *out, int kind, double x, double y);
 int  chart_write(const char *file);            /* 0 if the file could not be written */
 int  raster_chart_write(const char *file);     /* likewise; raster_chart.c */
 

@@ -1,28 +1,26 @@
 /* raster_chart.c - a plot of how fast glyphs are drawn, against FreeType, over their size.
  *
  * FreeType's time divided by ours, or by that of another library, as measured in the same rounds:
- * above the line of 1 is faster. Both axes are logarithmic. Ours have marks, on the widest target;
- * other libraries are plain lines with a name at their end. */
+ * above the line of 1 is faster. Both axes are logarithmic. Ours, on the widest target, have marks
+ * and colours; other libraries are thin lines. */
 #include "raster.h"
+#include "svg.h"
 
 #include <stdio.h>
 
-enum { WIDE = 760, HIGH = 480, LEFT = 70, RIGHT = 690, TOP = 52, BOTTOM = 420 };
-enum { FIRST = 16, SIZES = 8 };        /* 16 to 2048, doubling */
+enum { WIDE = 800, HIGH = 500, FIRST = 16, SIZES = 8, TITLE = 120 };   /* 16 to 2048, doubling */
 
-static const double LEAST = 0.1, MOST = 6;
+static const SvgPanel panel = { 64, 656, 104, 436, { 14, 2400, 1 }, { 0.1, 5, 1 } };
 
-static const char TITLE[] = "Drawing the glyphs of DejaVuSans: times FreeType's speed";
-
-static const char *const names[CHART_SERIES] = {
-	[CHART_U8] = "box, u8", [CHART_F32] = "box, f32", [CHART_TENT] = "tent, f32",
-	[CHART_MITCHELL] = "Mitchell, f32", [CHART_CAIRO] = "cairo", [CHART_AGG] = "AGG",
-	[CHART_STB] = "stb",
+static const struct { const char *text, *line, *mark, *name; } looks[CHART_SERIES] = {
+	[CHART_U8] = { "box to bytes", "c0 bold", "c0", "c0 name" },
+	[CHART_F32] = { "box to float", "c3", "c3", "c3 name" },
+	[CHART_TENT] = { "tent to float", "c2", "c2", "c2 name" },
+	[CHART_MITCHELL] = { "Mitchell to float", "c1", "c1", "c1 name" },
+	[CHART_CAIRO] = { "cairo", "c5 thin", NULL, "soft" },
+	[CHART_AGG] = { "AGG", "c5 thin", NULL, "soft" },
+	[CHART_STB] = { "stb_truetype", "c5 thin", NULL, "soft" },
 };
-
-/* The marks of a page, and its classes t0 .. t3, backwards. */
-#define MARK(series) (CHART_MITCHELL - (series))
-static const char *const classes[] = { "t3", "t2", "t1", "t0" };
 
 static double ratio[CHART_SERIES][SIZES];      /* 0: not measured */
 
@@ -35,80 +33,75 @@ void raster_chart_point(ChartSeries series, int size, double value)
 		ratio[series][place] = value;
 }
 
-static double place_x(int size)
+static void write_axes(Svg *svg)
 {
-	return LEFT + (RIGHT - LEFT) * (double)size / (SIZES - 1);
+	static const double ticks[] = { 0.1, 0.2, 0.5, 1, 2, 3, 4, 5 };
+	for (int place = 0; place < SIZES; ++place)
+		svg_tick_x(svg, &panel, "grid", FIRST << place, "%d", FIRST << place);
+	for (size_t i = 0; i < sizeof ticks / sizeof *ticks; ++i)
+		svg_tick_y(svg, &panel, ticks[i] == 1 ? "limit" : "grid", ticks[i], "%g",
+			ticks[i]);
+	svg_axis_titles(svg, &panel, "pixels per em", "times FreeType's speed");
 }
 
-static double place_y(double value)
+/* Draws what was measured of a series. 1 if its name is to stand beside the panel: it does not if
+ * the line ends before. */
+static int write_series(Svg *svg, int series, SvgLabel *label)
 {
-	const double shown = fmin(fmax(value, LEAST), MOST);
-	return BOTTOM - (BOTTOM - TOP) * log(shown / LEAST) / log(MOST / LEAST);
-}
-
-static void write_axes(FILE *out)
-{
-	static const double ticks[] = { 0.1, 0.2, 0.5, 1, 2, 5 };
-	for (size_t i = 0; i < sizeof ticks / sizeof *ticks; ++i) {
-		const double y = place_y(ticks[i]);
-		fprintf(out, "<path class=\"%s\" d=\"M%d %.1fH%d\"/>\n",
-			ticks[i] == 1 ? "limit" : "grid", LEFT, y, RIGHT);
-		svg_text(out, "soft", LEFT - 8, y + 4, "end", "%g", ticks[i]);
-	}
-	for (int size = 0; size < SIZES; ++size) {
-		fprintf(out, "<path class=\"grid\" d=\"M%.1f %dV%d\"/>\n", place_x(size), TOP, BOTTOM);
-		svg_text(out, "soft", place_x(size), BOTTOM + 18, "middle", "%d", FIRST << size);
-	}
-	svg_text(out, "ink", (LEFT + RIGHT) / 2., HIGH - 16, "middle",
-		"pixels per em (log scale)");
-}
-
-static void write_series(FILE *out, int series)
-{
-	const double *value = ratio[series];
-	const int ours = series < CHART_CAIRO;
-	int last = -1;
-	fprintf(out, "<path class=\"%s\" style=\"fill:none;stroke-width:1.5\" d=\"",
-		ours ? classes[series] : "limit");
-	for (int size = 0; size < SIZES; ++size)
-		if (value[size] > 0) {
-			fprintf(out, "%s%.1f %.1f", last < 0 ? "M" : "L", place_x(size),
-				place_y(value[size]));
-			last = size;
+	double size[SIZES], value[SIZES];
+	int count = 0;
+	for (int place = 0; place < SIZES; ++place)
+		if (ratio[series][place] > 0) {
+			size[count] = FIRST << place;
+			value[count++] = ratio[series][place];
 		}
-	fprintf(out, "\"/>\n");
-	for (int size = 0; size < SIZES && ours; ++size)
-		if (value[size] > 0)
-			svg_mark(out, MARK(series), place_x(size), place_y(value[size]));
-	if (!ours && last >= 0)
-		svg_text(out, "soft", place_x(last) + 6, place_y(value[last]) + 4, "start", "%s",
-			names[series]);
+	if (count == 0)
+		return 0;
+	svg_line(svg, &panel, looks[series].line, size, value, count);
+	if (looks[series].mark)
+		svg_marks(svg, &panel, looks[series].mark, series, size, value, count);
+	label->y = svg_y(&panel, value[count - 1]);
+	label->kind = looks[series].name;
+	snprintf(label->text, sizeof label->text, "%s", looks[series].text);
+	if (size[count - 1] >= FIRST << (SIZES - 1))
+		return 1;
+	svg_text(svg, label->kind, svg_x(&panel, size[count - 1]) + 10, label->y + 4.5, "start",
+		"%s", label->text);
+	return 0;
 }
 
-static void write_legend(FILE *out)
+/* 0 if there is nothing to be said. */
+static int make_title(char title[TITLE])
 {
-	const int x = RIGHT - 130;
-	int y = TOP + 18;
-	for (int series = 0; series < CHART_CAIRO; ++series, y += 20) {
-		svg_mark(out, MARK(series), x, y);
-		svg_text(out, "ink", x + 16, y + 4, "start", "%s", names[series]);
+	double least = INFINITY, most = 0;
+	for (int place = 0; place < SIZES; ++place) {
+		least = fmin(least, ratio[CHART_U8][place]);
+		most = fmax(most, ratio[CHART_U8][place]);
 	}
-	fprintf(out, "<path class=\"limit\" d=\"M%d %dh20\"/>\n", x - 10, y);
-	svg_text(out, "ink", x + 16, y + 4, "start", "FreeType, box, u8");
+	snprintf(title, TITLE, "Exact coverage of glyphs, %.1f to %.1f times as fast as FreeType",
+		least, most);
+	return least > 0;
 }
 
 int raster_chart_write(const char *file)
 {
-	FILE *out = fopen(file, "w");
-	if (!out)
+	SvgLabel label[CHART_SERIES + 1] = { { svg_y(&panel, 1), "soft", "FreeType" } };
+	int labels = 1;
+	char title[TITLE];
+	Svg svg;
+	if (!make_title(title)) {
+		fprintf(stderr, "bench: no ratios to FreeType: it, or DejaVuSans, was not there "
+			"(make deps-bench)\n");
 		return 0;
-	svg_page(out, WIDE, HIGH, TITLE);
-	svg_text(out, "ink title", LEFT, 28, "start", "%s", TITLE);
-	write_axes(out);
-	for (int series = 0; series < CHART_SERIES; ++series)
-		write_series(out, series);
-	write_legend(out);
-	fprintf(out, "</svg>\n");
-	int good = !ferror(out);
-	return fclose(out) == 0 && good;
+	}
+	if (!svg_open(&svg, file, WIDE, HIGH, title))
+		return 0;
+	svg_headline(&svg, title, "The glyphs of DejaVuSans in turn as polygons, clearing "
+		"included; other libraries draw a box to bytes");
+	svg_panel(&svg, &panel);
+	write_axes(&svg);
+	for (int series = CHART_SERIES - 1; series >= 0; --series)
+		labels += write_series(&svg, series, &label[labels]);
+	svg_labels(&svg, &panel, label, labels);
+	return svg_close(&svg);
 }

@@ -9,263 +9,35 @@
  * themselves. Two passes: raw moments about the middle give the centroid, then moments about that
  * centroid are computed afresh from the vertices. Moving the raw moments there would subtract large
  * numbers from each other.
- *
- * Invariant: a shape owns consecutive rings and a ring consecutive vertices, so sorting moves
- * shapes only. */
-#include <errno.h>
-#include <math.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
+ */
 #include "edgewise.h"
+
+#include "outline.h"
 
 #define PI 3.14159265358979323846
 #define RADIUS 6371.0072 /* km, of the sphere with the area of the Earth */
 
-enum { DEGREE = 2, MOMENTS = EW_MOMENTS(DEGREE), LONGEST_LINE = 200, LONGEST_NAME = 40 };
+enum { DEGREE = 2, MOMENTS = EW_MOMENTS(DEGREE) };
 
-typedef struct {
-	size_t first, count; /* vertices */
-	long line;
-	bool hole;
-} Ring;
+static const OutlineKind on_globe = { "longitude", "latitude", "degrees", 180, 90, false };
 
 typedef struct {
 	double lon, lat, east[3], north[3], up[3];
 } Frame;
 
 typedef struct {
-	char name[LONGEST_NAME + 1];
-	const char *file;
-	long line;
-	size_t first, rings, vertices;
+	const Shape *shape;
 	Frame frame;
 	double raw[MOMENTS];     /* about the middle */
 	double central[MOMENTS]; /* about the centroid */
 	double x, y, axis;       /* centroid; degrees counterclockwise from east */
-} Shape;
+} Country;
 
 typedef struct {
-	double *lon, *lat, *x, *y; /* degrees; km */
-	Ring *rings;
-	Shape *shapes;
-	size_t vertex_count, ring_count, shape_count;
+	Outlines outlines; /* in degrees */
+	double *x, *y;     /* km, each shape about its middle */
+	Country *countries;
 } Atlas;
-
-typedef struct {
-	const char *name;
-	FILE *stream;
-	size_t shapes_before; /* shapes of earlier files */
-	long line;
-	char text[LONGEST_LINE + 1];
-} Reader;
-
-static void fail(const char *file, long line, long column, const char *format, ...)
-{
-	va_list args;
-	va_start(args, format);
-	fprintf(stderr, "%s:%ld:%ld: error: ", file, line, column);
-	vfprintf(stderr, format, args);
-	fputc('\n', stderr);
-	va_end(args);
-	exit(1);
-}
-
-static void stop(const char *what, const char *name)
-{
-	fprintf(stderr, "shapes: %s %s: %s\n", what, name, strerror(errno));
-	exit(1);
-}
-
-/* Room for one more element behind `count`; arrays double whenever count is a power of two. */
-static void *grow(void *array, size_t count, size_t size)
-{
-	if (count & (count - 1))
-		return array;
-	size_t room = count ? 2 * count : 1;
-	errno = ENOMEM;
-	void *grown = room > SIZE_MAX / size ? NULL : realloc(array, room * size);
-	if (!grown)
-		stop("no room for", "the vertices");
-	return grown;
-}
-
-/* ---- reading ---- */
-
-static bool read_line(Reader *in)
-{
-	size_t size = 0;
-	int c;
-	in->line++;
-	while ((c = getc(in->stream)) != EOF && c != '\n') {
-		if (size == LONGEST_LINE)
-			fail(in->name, in->line, LONGEST_LINE + 1,
-			     "the line is longer than %d bytes; write one item per line",
-			     LONGEST_LINE);
-		in->text[size++] = (char)c;
-	}
-	if (ferror(in->stream))
-		stop("cannot read", in->name);
-	if (c == EOF && size == 0)
-		return false;
-	while (size > 0 && strchr(" \t\r", in->text[size - 1]) && in->text[size - 1])
-		size--;
-	in->text[size] = '\0';
-	bool comment = in->text[strspn(in->text, " \t")] == '#';
-	for (size_t i = 0; i < size && !comment; i++) {
-		unsigned char byte = (unsigned char)in->text[i];
-		if (byte != '\t' && (byte < ' ' || byte > '~'))
-			fail(in->name, in->line, (long)i + 1,
-			     "byte 0x%02x is not printable ASCII; remove it", byte);
-	}
-	return true;
-}
-
-static void skip_blanks(char **p)
-{
-	*p += strspn(*p, " \t");
-}
-
-static bool take_word(char **p, const char *word)
-{
-	size_t size = strlen(word);
-	if (strcspn(*p, " \t") != size || memcmp(*p, word, size))
-		return false;
-	*p += size;
-	skip_blanks(p);
-	return true;
-}
-
-static double take_number(const Reader *in, char **p, const char *what, double limit)
-{
-	long column = (long)(*p - in->text) + 1;
-	char *end;
-	double value = strtod(*p, &end);
-	if (end == *p || !strchr(" \t", *end))
-		fail(in->name, in->line, column,
-		     "expected a %s; lines are 'shape NAME', 'ring', 'hole', 'LONGITUDE LATITUDE'",
-		     what);
-	if (!(fabs(value) <= limit))
-		fail(in->name, in->line, column, "the %s must be between -%.0f and %.0f degrees",
-		     what, limit, limit);
-	*p = end;
-	skip_blanks(p);
-	return value;
-}
-
-static Shape *current_shape(const Reader *in, const Atlas *atlas)
-{
-	size_t count = atlas->shape_count;
-	return count > in->shapes_before ? &atlas->shapes[count - 1] : NULL;
-}
-
-static void close_ring(const Reader *in, const Atlas *atlas)
-{
-	const Ring *ring = &atlas->rings[atlas->ring_count - 1];
-	if (ring->count < 3)
-		fail(in->name, ring->line, 1,
-		     "the ring has %zu vertices; add some, it needs 3 or more", ring->count);
-}
-
-static void close_shape(const Reader *in, const Atlas *atlas)
-{
-	const Shape *shape = current_shape(in, atlas);
-	if (!shape)
-		return;
-	if (!shape->rings)
-		fail(in->name, shape->line, 1, "shape %s has no ring; add 'ring' and its vertices",
-		     shape->name);
-	close_ring(in, atlas);
-}
-
-static void open_shape(const Reader *in, Atlas *atlas, char **p)
-{
-	close_shape(in, atlas);
-	size_t size = strlen(*p);
-	if (size == 0)
-		fail(in->name, in->line, 1, "the shape has no name; write 'shape NAME'");
-	if (size > LONGEST_NAME)
-		fail(in->name, in->line, (long)(*p - in->text) + 1 + LONGEST_NAME,
-		     "the name is longer than %d characters; shorten it", LONGEST_NAME);
-	atlas->shapes = grow(atlas->shapes, atlas->shape_count, sizeof *atlas->shapes);
-	Shape *shape = &atlas->shapes[atlas->shape_count++];
-	*shape = (Shape){ .file = in->name, .line = in->line, .first = atlas->ring_count };
-	memcpy(shape->name, *p, size);
-	*p += size;
-}
-
-static void open_ring(const Reader *in, Atlas *atlas, bool hole)
-{
-	Shape *shape = current_shape(in, atlas);
-	if (!shape)
-		fail(in->name, in->line, 1,
-		     "a ring before the first shape; write 'shape NAME' above it");
-	if (shape->rings)
-		close_ring(in, atlas);
-	else if (hole)
-		fail(in->name, in->line, 1,
-		     "a hole before the first ring; write the ring above it");
-	atlas->rings = grow(atlas->rings, atlas->ring_count, sizeof *atlas->rings);
-	atlas->rings[atlas->ring_count++] =
-		(Ring){ .first = atlas->vertex_count, .line = in->line, .hole = hole };
-	shape->rings++;
-}
-
-static void add_vertex(const Reader *in, Atlas *atlas, double lon, double lat)
-{
-	Shape *shape = current_shape(in, atlas);
-	if (!shape || !shape->rings)
-		fail(in->name, in->line, 1, "a vertex outside of a ring; write 'ring' above it");
-	double **arrays[] = { &atlas->lon, &atlas->lat, &atlas->x, &atlas->y };
-	for (int i = 0; i < 4; i++)
-		*arrays[i] = grow(*arrays[i], atlas->vertex_count, sizeof(double));
-	atlas->lon[atlas->vertex_count] = lon;
-	atlas->lat[atlas->vertex_count++] = lat;
-	atlas->rings[atlas->ring_count - 1].count++;
-	shape->vertices++;
-}
-
-static void read_item(const Reader *in, Atlas *atlas, char *p)
-{
-	if (take_word(&p, "shape")) {
-		open_shape(in, atlas, &p);
-	} else if (take_word(&p, "ring")) {
-		open_ring(in, atlas, false);
-	} else if (take_word(&p, "hole")) {
-		open_ring(in, atlas, true);
-	} else {
-		double lon = take_number(in, &p, "longitude", 180);
-		double lat = take_number(in, &p, "latitude", 90);
-		add_vertex(in, atlas, lon, lat);
-	}
-	if (*p)
-		fail(in->name, in->line, (long)(p - in->text) + 1,
-		     "unexpected text; end the line here");
-}
-
-static void read_file(Atlas *atlas, const char *name)
-{
-	Reader in = { .name = name,
-		      .stream = fopen(name, "r"),
-		      .shapes_before = atlas->shape_count };
-	if (!in.stream)
-		stop("cannot open", name);
-	while (read_line(&in)) {
-		char *p = in.text;
-		skip_blanks(&p);
-		if (*p && *p != '#')
-			read_item(&in, atlas, p);
-	}
-	if (!current_shape(&in, atlas))
-		fail(name, in.line, 1,
-		     "the file has no shape; write 'shape NAME', 'ring' and vertices");
-	close_shape(&in, atlas);
-	fclose(in.stream);
-}
 
 /* ---- the globe ---- */
 
@@ -289,24 +61,26 @@ static void to_degrees(const double v[3], double *lon, double *lat)
 
 /* Fills x and y of the shape's vertices: for the unit vector v of a vertex,
  * (x, y) = RADIUS sqrt(2/(1 + v.up)) (v.east, v.north). */
-static void project(const Atlas *atlas, Shape *shape)
+static void project(const Atlas *atlas, Country *country)
 {
-	size_t first = atlas->rings[shape->first].first;
+	const Shape *shape = country->shape;
+	const double *lon = atlas->outlines.x, *lat = atlas->outlines.y;
+	size_t first = atlas->outlines.rings[shape->first].first;
 	size_t end = first + shape->vertices;
 	double v[3], mean[3] = { 0, 0, 0 };
 	for (size_t i = first; i < end; i++) {
-		direction(atlas->lon[i], atlas->lat[i], v);
+		direction(lon[i], lat[i], v);
 		for (int k = 0; k < 3; k++)
 			mean[k] += v[k] / (double)shape->vertices;
 	}
-	Frame *frame = &shape->frame;
+	Frame *frame = &country->frame;
 	to_degrees(mean, &frame->lon, &frame->lat);
 	direction(frame->lon, frame->lat, frame->up);
 	direction(frame->lon + 90, 0, frame->east);
 	direction(frame->lon, frame->lat + 90, frame->north);
 	bool fits = dot(mean, mean) > 1e-12;
 	for (size_t i = first; i < end; i++) {
-		direction(atlas->lon[i], atlas->lat[i], v);
+		direction(lon[i], lat[i], v);
 		double c = dot(v, frame->up);
 		fits = fits && c > -0.99;
 		double scale = RADIUS * sqrt(2 / (1 + c));
@@ -334,13 +108,9 @@ static void unproject(const Frame *frame, double x, double y, double *lon, doubl
 static void check_rings(const Atlas *atlas, const Shape *shape)
 {
 	for (size_t i = shape->first; i < shape->first + shape->rings; i++) {
-		const Ring *ring = &atlas->rings[i];
-		double area = ew_area(atlas->x + ring->first, atlas->y + ring->first, ring->count);
-		if (ring->hole ? !(area < 0) : !(area > 0))
-			fail(shape->file, ring->line, 1,
-			     "the %s runs %s or encloses nothing; reverse its vertices",
-			     ring->hole ? "hole" : "ring",
-			     ring->hole ? "counterclockwise" : "clockwise");
+		const Ring *ring = &atlas->outlines.rings[i];
+		check_turn(shape, ring, ew_area(atlas->x + ring->first, atlas->y + ring->first,
+						ring->count));
 	}
 }
 
@@ -349,7 +119,7 @@ static void sum_rings(const Atlas *atlas, const Shape *shape, const double *cent
 {
 	memset(sum, 0, MOMENTS * sizeof *sum);
 	for (size_t i = shape->first; i < shape->first + shape->rings; i++) {
-		const Ring *ring = &atlas->rings[i];
+		const Ring *ring = &atlas->outlines.rings[i];
 		const double *x = atlas->x + ring->first, *y = atlas->y + ring->first;
 		double one[MOMENTS];
 		if (centre)
@@ -369,29 +139,42 @@ static double principal_axis(const double central[MOMENTS])
 	return angle > -90 ? angle : 90;
 }
 
-static void measure(const Atlas *atlas, Shape *shape)
+static void measure(const Atlas *atlas, Country *country)
 {
-	project(atlas, shape);
+	const Shape *shape = country->shape;
+	project(atlas, country);
 	check_rings(atlas, shape);
-	sum_rings(atlas, shape, NULL, shape->raw);
-	double area = shape->raw[EW_INDEX(0, 0)];
-	double centroid[2] = { shape->raw[EW_INDEX(1, 0)] / area,
-			       shape->raw[EW_INDEX(0, 1)] / area };
+	sum_rings(atlas, shape, NULL, country->raw);
+	double area = country->raw[EW_INDEX(0, 0)];
+	double centroid[2] = { country->raw[EW_INDEX(1, 0)] / area,
+			       country->raw[EW_INDEX(0, 1)] / area };
 	if (!(area > 0 && hypot(centroid[0], centroid[1]) < 2 * RADIUS))
 		fail(shape->file, shape->line, 1,
 		     "shape %s has holes outside of its rings; move them inside", shape->name);
-	shape->x = centroid[0];
-	shape->y = centroid[1];
-	sum_rings(atlas, shape, centroid, shape->central);
-	shape->axis = principal_axis(shape->central);
+	country->x = centroid[0];
+	country->y = centroid[1];
+	sum_rings(atlas, shape, centroid, country->central);
+	country->axis = principal_axis(country->central);
+}
+
+static void measure_all(Atlas *atlas)
+{
+	const Outlines *outlines = &atlas->outlines;
+	atlas->x = allocate(outlines->vertex_count, sizeof *atlas->x);
+	atlas->y = allocate(outlines->vertex_count, sizeof *atlas->y);
+	atlas->countries = allocate(outlines->shape_count, sizeof *atlas->countries);
+	for (size_t i = 0; i < outlines->shape_count; i++) {
+		atlas->countries[i].shape = &outlines->shapes[i];
+		measure(atlas, &atlas->countries[i]);
+	}
 }
 
 static int by_area(const void *left, const void *right)
 {
-	const Shape *a = left, *b = right;
+	const Country *a = left, *b = right;
 	double difference = b->raw[0] - a->raw[0];
 	if (difference == 0)
-		return strcmp(a->name, b->name);
+		return strcmp(a->shape->name, b->shape->name);
 	return difference > 0 ? 1 : -1;
 }
 
@@ -399,64 +182,53 @@ static int by_area(const void *left, const void *right)
 
 static void print_table(const Atlas *atlas)
 {
+	const Outlines *outlines = &atlas->outlines;
 	int width = 10;
 	double area = 0;
-	for (size_t i = 0; i < atlas->shape_count; i++)
-		width = (int)fmax(width, (double)strlen(atlas->shapes[i].name));
+	for (size_t i = 0; i < outlines->shape_count; i++)
+		width = (int)fmax(width, (double)strlen(outlines->shapes[i].name));
 	printf("%-*s %5s %8s %13s %8s %8s  %11s %11s %11s %7s\n", width, "", "", "", "area",
 	       "centroid", "", "mu20", "mu11", "mu02", "axis");
 	printf("%-*s %5s %8s %13s %8s %8s  %11s %11s %11s %7s\n", width, "shape", "rings",
 	       "vertices", "km2", "lat", "lon", "km4", "km4", "km4", "degrees");
-	for (size_t i = 0; i < atlas->shape_count; i++) {
-		const Shape *shape = &atlas->shapes[i];
-		const double *mu = shape->central;
+	for (size_t i = 0; i < outlines->shape_count; i++) {
+		const Country *country = &atlas->countries[i];
+		const Shape *shape = country->shape;
+		const double *mu = country->central;
 		double lon, lat;
-		unproject(&shape->frame, shape->x, shape->y, &lon, &lat);
+		unproject(&country->frame, country->x, country->y, &lon, &lat);
 		printf("%-*s %5zu %8zu %13.0f %8.3f %8.3f  %11.4e %11.4e %11.4e %7.2f\n", width,
-		       shape->name, shape->rings, shape->vertices, shape->raw[0], lat, lon,
-		       mu[EW_INDEX(2, 0)], mu[EW_INDEX(1, 1)], mu[EW_INDEX(0, 2)], shape->axis);
-		area += shape->raw[0];
+		       shape->name, shape->rings, shape->vertices, country->raw[0], lat, lon,
+		       mu[EW_INDEX(2, 0)], mu[EW_INDEX(1, 1)], mu[EW_INDEX(0, 2)], country->axis);
+		area += country->raw[0];
 	}
 	char total[32];
-	snprintf(total, sizeof total, "total (%zu)", atlas->shape_count);
-	printf("%-*s %5zu %8zu %13.0f\n", width, total, atlas->ring_count, atlas->vertex_count,
+	snprintf(total, sizeof total, "total (%zu)", outlines->shape_count);
+	printf("%-*s %5zu %8zu %13.0f\n", width, total, outlines->ring_count, outlines->vertex_count,
 	       area);
 }
 
-static void print_numbers(const char *word, const double *values, int count)
-{
-	printf("%s", word);
-	for (int i = 0; i < count; i++)
-		printf(" %a", values[i]);
-	putchar('\n');
-}
-
 /* What the table was made from, every bit of it, for programs. */
-static void print_exact(const Atlas *atlas, const Shape *shape)
+static void print_exact(const Atlas *atlas, const Country *country)
 {
-	double middle[2] = { shape->frame.lon, shape->frame.lat };
-	double centroid[4] = { shape->x, shape->y };
-	unproject(&shape->frame, shape->x, shape->y, &centroid[2], &centroid[3]);
+	const Outlines *outlines = &atlas->outlines;
+	const Shape *shape = country->shape;
+	double middle[2] = { country->frame.lon, country->frame.lat };
+	double centroid[4] = { country->x, country->y };
+	unproject(&country->frame, country->x, country->y, &centroid[2], &centroid[3]);
 	printf("shape %s\n", shape->name);
 	print_numbers("middle", middle, 2);
 	for (size_t i = shape->first; i < shape->first + shape->rings; i++) {
-		const Ring *ring = &atlas->rings[i];
+		const Ring *ring = &outlines->rings[i];
 		printf("%s %zu\n", ring->hole ? "hole" : "ring", ring->count);
 		for (size_t j = ring->first; j < ring->first + ring->count; j++)
-			printf("%a %a %a %a\n", atlas->x[j], atlas->y[j], atlas->lon[j],
-			       atlas->lat[j]);
+			printf("%a %a %a %a\n", atlas->x[j], atlas->y[j], outlines->x[j],
+			       outlines->y[j]);
 	}
-	print_numbers("raw", shape->raw, MOMENTS);
+	print_numbers("raw", country->raw, MOMENTS);
 	print_numbers("centroid", centroid, 4);
-	print_numbers("central", shape->central + EW_INDEX(2, 0), 3);
-	print_numbers("axis", &shape->axis, 1);
-}
-
-static int finish(void)
-{
-	if (fflush(stdout) || ferror(stdout))
-		stop("cannot write", "standard output");
-	return 0;
+	print_numbers("central", country->central + EW_INDEX(2, 0), 3);
+	print_numbers("axis", &country->axis, 1);
 }
 
 static int usage(FILE *stream)
@@ -465,7 +237,7 @@ static int usage(FILE *stream)
 	      "Prints area, centroid, second moments and principal axis of the shapes in FILEs,\n"
 	      "the largest first. --exact prints projected vertices and results in hexadecimal.\n",
 	      stream);
-	return stream == stderr ? 2 : finish();
+	return stream == stderr ? 2 : finish_output();
 }
 
 int main(int argc, char **argv)
@@ -486,16 +258,17 @@ int main(int argc, char **argv)
 		return usage(stderr);
 	Atlas atlas = { 0 };
 	for (int i = 0; i < files; i++)
-		read_file(&atlas, argv[i]);
-	for (size_t i = 0; i < atlas.shape_count; i++)
-		measure(&atlas, &atlas.shapes[i]);
-	qsort(atlas.shapes, atlas.shape_count, sizeof *atlas.shapes, by_area);
-	for (size_t i = 0; exact && i < atlas.shape_count; i++)
-		print_exact(&atlas, &atlas.shapes[i]);
+		read_outlines(&atlas.outlines, argv[i], &on_globe);
+	measure_all(&atlas);
+	const size_t count = atlas.outlines.shape_count;
+	qsort(atlas.countries, count, sizeof *atlas.countries, by_area);
+	for (size_t i = 0; exact && i < count; i++)
+		print_exact(&atlas, &atlas.countries[i]);
 	if (!exact)
 		print_table(&atlas);
-	void *owned[] = { atlas.lon, atlas.lat, atlas.x, atlas.y, atlas.rings, atlas.shapes };
-	for (int i = 0; i < 6; i++)
-		free(owned[i]);
-	return finish();
+	free_outlines(&atlas.outlines);
+	free(atlas.x);
+	free(atlas.y);
+	free(atlas.countries);
+	return finish_output();
 }

@@ -179,11 +179,10 @@ Text bundle_depfile(const Files *outputs, const Request *request)
 		add_path(&text, outputs->file[i].name);
 	}
 	text_add(&text, ":");
-	for (int i = 0; i < request->filters; ++i)
-		if (request->filter[i].path) {
-			text_add(&text, " \\\n ");
-			add_path(&text, request->filter[i].path);
-		}
+	for (const char *const *path = spec_paths(request); *path; ++path) {
+		text_add(&text, " \\\n ");
+		add_path(&text, *path);
+	}
 	text_add(&text, "\n");
 	return text;
 }

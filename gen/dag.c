@@ -13,8 +13,8 @@
 
 #include <string.h>
 
-#define OP(name, operands, commutes, fma, add, divide, c, x86, neon) \
-	{ #name, operands, commutes, fma, add, divide, { c, x86, neon } },
+#define OP(name, operands, commutes, fma, add, divide, c, x86, neon, wasm) \
+	{ #name, operands, commutes, fma, add, divide, { c, x86, neon, wasm } },
 static const struct {
 	const char *name;
 	int operands, commutes, fma, add, divide;

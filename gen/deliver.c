@@ -5,8 +5,8 @@
  * the folder as it was, unchanged files keep their time, and readers never see half a file.
  * The manifest in the folder names what gen wrote there: a later run removes files of its own that
  * it no longer writes, if nobody changed them, and touches nothing else. A file in the folder that
- * gen did not write is never overwritten; a FILE named on the command line is. Devices and pipes
- * are written in place, before any rename. */
+ * gen did not write is never overwritten; a FILE named on the command line is, unless it was read.
+ * Devices and pipes are written in place, before any rename. */
 #include "gen.h"
 
 #include <errno.h>
@@ -187,6 +187,15 @@ static void refuse_collisions(const Plan *plan)
 				refuse_collision(plan, j, i);
 }
 
+static void refuse_sources(const Plan *plan, const char *const *sources)
+{
+	for (; *sources; ++sources)
+		for (int i = 0; i < plan->outputs; ++i)
+			if (same_file(plan->output[i].path, *sources))
+				fatal(EXIT_USAGE, "%s would overwrite %s, which is read; give "
+					"the output another name", plan->output[i].path, *sources);
+}
+
 static void plan_output(Plan *plan, const char *path, const Text *text, int overwrite)
 {
 	int state = examine(path, text, overwrite);
@@ -359,6 +368,7 @@ int deliver(const Files *folder, const Files *single, const Delivery *how)
 	for (int i = 0; i < single->count; ++i)
 		plan_output(&plan, single->file[i].name, &single->file[i].text, 1);
 	refuse_collisions(&plan);
+	refuse_sources(&plan, how->sources);
 	if (how->check)
 		return report_check(&plan);
 	if (!how->dry_run)

@@ -55,6 +55,11 @@ static const Vector neon = {
 	SPELL_NEON,
 	"vld1q_@($1)", "vst1q_@($1, $2)", { NULL, NULL }, { NULL, NULL }, NULL, 0,
 };
+static const Vector wasm128 = {
+	"wasm_simd128.h", "", { "v128_t", "v128_t" }, { "f64x2", "f32x4" }, { 2, 4 }, 16,
+	SPELL_WASM,
+	"wasm_v128_load($1)", "wasm_v128_store($1, $2)", { NULL, NULL }, { NULL, NULL }, NULL, 0,
+};
 
 const Target targets[] = {
 	{ "portable", TARGET_PORTABLE, 0, NULL, NULL, NULL, "plain C99, no fused operations",
@@ -68,8 +73,15 @@ const Target targets[] = {
 		"AVX-512 F", &avx512 },
 	{ "neon", TARGET_NEON, 1, "EW_BUILD_NEON", "EW_ARM", "EW_ATTRIBUTE_NEON",
 		"AArch64 NEON", &neon },
+	{ "wasm128", TARGET_WASM128, 0, "EW_BUILD_WASM128", "EW_WASM", "EW_ATTRIBUTE_WASM128",
+		"WebAssembly SIMD without FMA", &wasm128 },
 };
 const int target_count = LENGTH(targets);
+
+const Program *emit_ring_program(const Ring *ring, const Target *target, int is_float)
+{
+	return target->fused ? &ring->fused[is_float] : &ring->portable[is_float];
+}
 
 const Precision precisions[] = {
 	{ "double", "", "2^-53", 0, 8, PRECISION_DOUBLE },

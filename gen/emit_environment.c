@@ -2,20 +2,26 @@
  * and wide arithmetic, which targets a compiler can build, and the operations that no single
  * expression or intrinsic spells (ops.def names them).
  *
- * Those have the same bits everywhere: max and choose are comparisons and selections, and the
- * exponent of a number is taken from its bits, relative to those of sqrt(1/2). */
+ * Those have the same bits everywhere: max and choose are comparisons and selections, the exponent
+ * of a number is taken from its bits, relative to those of sqrt(1/2), and what a product lost comes
+ * from Dekker's splitting where nothing is fused. */
 #include "gen.h"
 
-/* Scalar operations of one precision; root: the bits of sqrt 1/2. */
+/* Operations of one precision; root: the bits of sqrt 1/2; splitter: 2^ceil(t/2) + 1 splits t bits
+ * in two halves, of numbers below 2^limit. */
 typedef struct {
 	const char *real, *suffix, *bits, *integer;
 	int mantissa;
-	const char *root;
+	const char *root, *splitter;
+	int limit;
+	const char *shape, *integers;        /* of vectors in WebAssembly */
 } Format;
 
 static const Format formats[] = {
-	{ "double", "", "uint64_t", "int64_t", 52, "0x3fe6a09e667f3bcd" },
-	{ "float", "f", "uint32_t", "int32_t", 23, "0x3f3504f3" },
+	{ "double", "", "uint64_t", "int64_t", 52, "0x3fe6a09e667f3bcd", "134217729.0", 996,
+		"f64x2", "64x2" },
+	{ "float", "f", "uint32_t", "int32_t", 23, "0x3f3504f3", "4097.0f", 115,
+		"f32x4", "32x4" },
 };
 
 static void add_scalar(Text *text, const Format *f)
@@ -37,6 +43,50 @@ static void add_scalar(Text *text, const Format *f)
 		"\tconst %s above = ew_ring_bits%s(a), bits = above - (above >> %d << %d) + %s;\n"
 		"\tmemcpy(&a, &bits, sizeof a);\n\treturn a;\n}\n", real, suffix, real,
 		f->bits, suffix, f->mantissa, f->mantissa, f->root);
+}
+
+static void add_lost(Text *text, const Format *f)
+{
+	const char *real = f->real;
+	text_add(text, "/* a b - p exactly, p = a b rounded (Dekker 1971); a and b below 2^%d. */\n"
+		"static inline %s ew_ring_lost%s(%s a, %s b, %s p)\n{\n"
+		"\tconst %s ta = %s * a, tb = %s * b;\n"
+		"\tconst %s ha = ta - (ta - a), hb = tb - (tb - b);\n"
+		"\tconst %s la = a - ha, lb = b - hb;\n"
+		"\treturn ((ha * hb - p) + ha * lb + la * hb) + la * lb;\n}\n",
+		f->limit, real, f->suffix, real, real, real, real, f->splitter, f->splitter,
+		real, real);
+}
+
+/* The same by vectors; 2^52 + k has k in its last bits, and small integers are converted so. */
+static void add_wasm(Text *text, const Format *f)
+{
+	const char *shape = f->shape, *integers = f->integers, *root = f->root;
+	const int is_double = f->mantissa == 52;
+	text_add(text, "#define EW_LEAST_%s %s\n", shape, is_double ? "DBL_MIN" : "FLT_MIN");
+	text_add(text, "#define EW_CHOOSE_%s(a, b, c) \\\n"
+		"\twasm_v128_bitselect(b, c, wasm_%s_gt(a, wasm_%s_splat(0)))\n", shape, shape,
+		shape);
+	text_add(text, "#define EW_BITS_%s(a) wasm_i%s_sub(a, wasm_i%s_splat(%s))\n", shape,
+		integers, integers, root);
+	text_add(text, is_double ? "#define EW_EXPONENT_%s(a) wasm_f64x2_sub(wasm_v128_or( \\\n"
+		"\twasm_u64x2_shr(EW_BITS_f64x2(a), 52), wasm_f64x2_splat(0x1p52)), "
+		"wasm_f64x2_splat(0x1p52))\n" : "#define EW_EXPONENT_%s(a) \\\n"
+		"\twasm_f32x4_convert_i32x4(wasm_u32x4_shr(EW_BITS_f32x4(a), 23))\n", shape);
+	text_add(text, "#define EW_FRACTION_%s(a) wasm_i%s_sub(a, \\\n"
+		"\twasm_i%s_shl(wasm_u%s_shr(EW_BITS_%s(a), %d), %d))\n", shape, integers,
+		integers, integers, shape, f->mantissa, f->mantissa);
+	text_add(text, "static inline v128_t ew_ring_lost_%s(v128_t a, v128_t b, v128_t p)\n{\n"
+		"\tconst v128_t splitter = wasm_%s_splat(%s);\n", shape, shape, f->splitter);
+	for (const char *half = "ab"; *half; ++half)
+		text_add(text, "\tconst v128_t t%c = wasm_%s_mul(splitter, %c);\n"
+			"\tconst v128_t h%c = wasm_%s_sub(t%c, wasm_%s_sub(t%c, %c));\n"
+			"\tconst v128_t l%c = wasm_%s_sub(%c, h%c);\n", *half, shape, *half,
+			*half, shape, *half, shape, *half, *half, *half, shape, *half, *half);
+	text_add(text, "\tconst v128_t high = wasm_%s_sub(wasm_%s_mul(ha, hb), p);\n"
+		"\tconst v128_t middle = wasm_%s_add(wasm_%s_add(high, wasm_%s_mul(ha, lb)),\n"
+		"\t\twasm_%s_mul(la, hb));\n\treturn wasm_%s_add(middle, wasm_%s_mul(la, lb));\n}\n",
+		shape, shape, shape, shape, shape, shape, shape, shape);
 }
 
 /* Before AVX-512DQ 64-bit integers have no conversion: 2^52 + k has k in its last bits. */
@@ -165,12 +215,22 @@ static void add_compiler(Text *text, const Request *request)
 		"#if defined(__aarch64__) && !defined(__TINYC__)\n#define EW_ARM 1\n"
 		"#define EW_ATTRIBUTE_NEON\n"
 		"#else\n#define EW_ARM 0\n#endif\n"
+		"#if defined(__wasm_simd128__)      /* a module has it or not: nothing to ask */\n"
+		"#define EW_WASM 1\n#define EW_ATTRIBUTE_WASM128\n"
+		"#else\n#define EW_WASM 0\n#endif\n"
 		"#if defined(__FP_FAST_FMA)\n#define EW_FAST_FMA 1\n"
 		"#else\n#define EW_FAST_FMA 0\n#endif\n");
 	for (int t = 0; t < target_count; ++t)
 		if (targets[t].guard)
 			text_add(text, "#define %s %s\n", targets[t].guard,
 				request->targets & targets[t].bit ? targets[t].condition : "0");
+}
+
+/* Deposits of filters are float. */
+static int has_precision(const Request *request, int p)
+{
+	return request->precisions & precisions[p].bit
+		|| (precisions[p].is_float && request->filters);
 }
 
 void emit_environment(Text *text, const Request *request)
@@ -183,8 +243,16 @@ void emit_environment(Text *text, const Request *request)
 	text_add(text, "\n"
 		"/* a > b ? a : b; a < b ? a : b; a > 0 ? b : c; for a >= 1 the integer k with a 2^-k in "
 		"[sqrt 1/2, sqrt 2),\n * and that number. */\n");
-	for (int p = 0; p < precision_count; ++p)    /* deposits of filters are float */
-		if (request->precisions & precisions[p].bit
-		    || (precisions[p].is_float && request->filters))
+	for (int p = 0; p < precision_count; ++p)
+		if (has_precision(request, p)) {
 			add_scalar(text, &formats[p]);
+			add_lost(text, &formats[p]);
+		}
+	if (!(request->targets & TARGET_WASM128))
+		return;
+	text_add(text, "\n#if EW_BUILD_WASM128\n#include <wasm_simd128.h>\n");
+	for (int p = 0; p < precision_count; ++p)
+		if (has_precision(request, p))
+			add_wasm(text, &formats[p]);
+	text_add(text, "#endif\n");
 }

@@ -104,7 +104,8 @@ static const Entry rings[] = {
 	"|y_(i+1) - y_(i-1)|, wherever the ring lies.",
 	"REAL ew_area@(const REAL *x, const REAL *y, size_t n)" },
 	{ has_centroid,
-	"Centroid, computed about the first vertex. If the area is 0: EW_ZERO_AREA, and c is NaN. "
+	"Centroid (c[0], c[1]), computed about the first vertex. If the area is 0: EW_ZERO_AREA, and c "
+	"is NaN. "
 	"Error: |c - exact| <= (B + |c - v| A) / (|area| - A) + 4 u |c - v| + u |c|, A and B the "
 	"bounds of area and first moment about vertex v.",
 	"int ew_centroid@(const REAL *x, const REAL *y, size_t n, REAL c[2])" },
@@ -124,8 +125,8 @@ static const Entry rings[] = {
 	{ has_area,
 	"Area about (0,0) as if summed in twice the precision (Dot2: Ogita, Rump, Oishi 2005): "
 	"faithful as long as sum |x_i y_(i+1)| + |x_(i+1) y_i| <= |2 area| 2^52 / (4 n^2) "
-	"(float: 2^23 / (4 n^2)) and products neither underflow nor overflow (portable: coordinates "
-	"below 2^996, float 2^115).",
+	"(float: 2^23 / (4 n^2)) and products neither underflow nor overflow (portable, wasm128: "
+	"coordinates below 2^996, float 2^115).",
 	"REAL ew_area_compensated@(const REAL *x, const REAL *y, size_t n)" },
 	{ has_area,
 	"Areas of many rings; ring i has the vertices offsets[i] .. offsets[i+1] - 1, as in GeoArrow "
@@ -210,7 +211,7 @@ static const Entry kinds[] = {
 	"REAL ew_radius@(int k, const REAL *x, const REAL *y, size_t n, REAL cx, REAL cy)" },
 	{ has_closure,
 	"(x0-px)(y0-py) - (x1-px)(y1-py): its sum over the edges of a closed boundary is 0, in any "
-	"order of the edges.",
+	"order of the edges. Error: gamma_4 times the sum of both |products|.",
 	"REAL ew_line_closure@(" LINE_POINTS ", REAL px, REAL py)" },
 	{ has_closure,
 	"The sum of ew_line_closure over edges in any order. On a closed set its terms cancel in pairs: "
@@ -248,9 +249,9 @@ static const Entry windows[] = {
 	"beside the rectangle gives exactly 0. Bad input as ew_below. Source: Green's theorem.",
 	"REAL ew_line_coverage@(" LINE_POINTS ", REAL u0, REAL u1, REAL v0, REAL v1)" },
 	{ has_coverage,
-	"Area of the part of a ring inside the rectangle [u0,u1] x [v0,v1]; 0 if that is empty. Error: "
-	"the "
-	"sum of those of the edges, and gamma_(ceil(n/8) + 2) (float: gamma_68) of the sum of |edges|.",
+	"Area of the part of a ring inside the rectangle [u0,u1] x [v0,v1]; 0 if that is empty. Bad input "
+	"as ew_below. Error: the sum of those of the edges, and gamma_(ceil(n/8) + 2) (float: gamma_68) "
+	"of the sum of |edges|.",
 	"REAL ew_coverage@(const REAL *x, const REAL *y, size_t n, REAL u0, REAL u1, REAL v0, REAL v1)" },
 	{ has_raster,
 	"An image of filtered coverage: pixels[j row_stride + i] = integral of f(x - i - 1/2, y - j - "
@@ -355,10 +356,11 @@ static const char *const PREAMBLE =
 	"A ring is n vertices (x[i], y[i]); the edge from the last to the first is implied, and a "
 	"ring that repeats its first vertex at the end is fine: a repeated vertex contributes "
 	"exactly 0. n of 0, 1 or 2 gives 0. NaN or infinity in gives NaN or infinity out. Inputs "
-	"are never changed, nothing allocates, every function is reentrant. Functions ending in f "
+	"are never changed, nothing but images allocates, every function is reentrant. Functions ending "
+	"in f "
 	"take and return float. u is 2^-53 (float: 2^-24) and gamma_k is k u / (1 - k u).\n\n"
 	"Results have the same bits on every CPU and target with fused multiply-add; portable "
-	"alone may differ.";
+	"and wasm128, which have none, may differ.";
 
 static void add_macros(Text *text, const Request *request)
 {
@@ -460,7 +462,9 @@ static void add_filters(Text *text, const Request *request)
 	add_comment(text, "What one line edge adds to the integral of a filter, centred at (cx,cy), over "
 		"the "
 		"region, and that integral for the region inside one ring: - sum over edges of the integral "
-		"of F(x, y(x)) dx, F the integral of f over y from below. Swapping the ends negates the first "
+		"of F(x, y(x)) dx, F the integral of f over y from below. The unit of the "
+		"filter is that of the coordinates: the box is a square of side 1. Swapping the ends negates "
+		"the first "
 		"bit for bit; an edge that is vertical, a point, below or beside the support gives exactly 0. "
 		"NaN or infinity gives NaN. Error of an edge: gamma_k C + 9 u (|y0 - cy| + |y1 - cy|) D, k from "
 		"the manifest, C the sum over the cells of the filter of its polynomials' terms, in coordinates "

@@ -149,8 +149,8 @@ static void add_precision(Text *text, const Request *request, const Kernels *ker
 			precision->real, emit_upper(targets[t].name), real);
 		for (int i = 0; i < kernels->rings; ++i) {
 			const Ring *ring = &kernels->ring[i];
-			Count cost = targets[t].fused ? ring->fused[precision->is_float].cost
-				: ring->portable[precision->is_float].cost;
+			Count cost = emit_ring_program(ring, &targets[t],
+				precision->is_float)->cost;
 			text_add(text, " \\\n\tX(%s, ew_ring_%s%s_%s, %d, %d)", ring_id(ring),
 				ring->name, precision->suffix, targets[t].name, cost.fma, cost.add);
 		}
@@ -260,9 +260,6 @@ static void add_targets(Text *text, const Request *request, const Kernels *kerne
 		"#define EW_TARGETS(X)%s\n", text_take(&all));
 }
 
-/* 2^ceil(t/2) + 1: splits t bits in two halves. */
-static const char *const SPLITTER[] = { "134217729.0", "4097.0f" };
-
 static void add_types(Text *text, const Request *request, const Kernels *kernels)
 {
 	text_add(text, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n"
@@ -292,16 +289,6 @@ static void add_types(Text *text, const Request *request, const Kernels *kernels
 				"\tfor (size_t i = 0; i < width; ++i)\n"
 				"\t\tpad[i] = i < rest ? from[i] : 0;\n"
 				"\treturn pad;\n}\n", real, suffix, real, real);
-		if (request->precisions & precisions[p].bit)
-			text_add(text, "/* a b - p exactly, p = a b rounded (Dekker 1971); a and b "
-				"below 2^%d. */\n"
-				"static inline %s ew_ring_lost%s(%s a, %s b, %s p)\n{\n"
-				"\tconst %s ta = %s * a, tb = %s * b;\n"
-				"\tconst %s ha = ta - (ta - a), hb = tb - (tb - b);\n"
-				"\tconst %s la = a - ha, lb = b - hb;\n"
-				"\treturn ((ha * hb - p) + ha * lb + la * hb) + la * lb;\n}\n",
-				precisions[p].is_float ? 115 : 996, real, suffix, real, real, real,
-				real, SPLITTER[p], SPLITTER[p], real, real);
 	}
 	text_add(text, "/* From sum[accumulator * stride] to out[output * stride]; those of a "
 		"vector target take as many\n * neighbours as a register holds. */\n"

@@ -1,9 +1,10 @@
 /* emit_ring.c - the kernels that run over rings, one row of the table of targets each,
  * and the finish functions.
  *
- * This fixes the definition that every target reproduces bit for bit
- * (portable, which has no FMA, excepted): with L virtual lanes (8 for double, 16 for float),
- * item i goes to lane i mod L, and every accumulator of a lane takes its items in order.
+ * This fixes the definition that every target with fused operations reproduces bit for bit, and
+ * that those without, portable and wasm128, share among themselves: with L virtual lanes (8 for
+ * double, 16 for float), item i goes to lane i mod L, and every accumulator of a lane takes its
+ * items in order.
  * A scalar kernel runs one lane after the other over a block that stays in the nearest cache;
  * a vector kernel may run lanes side by side. Items are edges (x[i], y[i]) -> (x[i+1], y[i+1]);
  * for the vertex form, vertex i+1 between its neighbours. */
@@ -107,8 +108,7 @@ static int has_constants(const Ring *ring)
 static void add_kernel(Text *text, const Ring *ring, const Target *target,
 	const Precision *precision)
 {
-	const Program *program = target->fused ? &ring->fused[precision->is_float]
-		: &ring->portable[precision->is_float];
+	const Program *program = emit_ring_program(ring, target, precision->is_float);
 	text_add(text, "\n/* %s; scheme %s.\n", describe(ring), ring->scheme);
 	text_add(text, " * Cost per item: %d %s, %d add%s; %d accumulators, %d values alive, "
 		"depth %d. */\n", program->cost.fma, target->fused ? "mul or fma" : "mul",

@@ -256,7 +256,7 @@ void emit_vector_item(Text *text, const Ring *ring, const Target *target,
 	text_add(text, "\n\t%s cx, %s *acc)\n{\n", type, type);
 	if (ring->window != WINDOW_VERTEX)
 		text_add(text, "\t(void)cx;\n");
-	emit_program(text, &ring->fused[precision->is_float], &style);
+	emit_program(text, emit_ring_program(ring, target, precision->is_float), &style);
 	text_add(text, "}\n");
 }
 
@@ -265,7 +265,7 @@ void emit_vector_body(Text *text, const Ring *ring, const Target *target,
 {
 	const Vector *vector = target->vector;
 	const int width = vector->width[precision->is_float];
-	const Program *program = &ring->fused[precision->is_float];
+	const Program *program = emit_ring_program(ring, target, precision->is_float);
 	Shape shape = { text, ring, program, vector, precision, vector->type[precision->is_float], width,
 		{ precision, 0, 2, 0, "acc%d", "acc%d = ", vector } };
 	int carried = vector->shift[0] && width == precision->lanes

@@ -187,8 +187,9 @@ typedef struct {
 
 enum { PRECISION_DOUBLE = 1, PRECISION_FLOAT = 2 };
 /* The bits of EW_PORTABLE, EW_FMA, ... */
-enum { TARGET_PORTABLE = 1, TARGET_FMA = 2, TARGET_AVX2 = 4, TARGET_AVX512 = 8, TARGET_NEON = 16 };
-enum { ALL_TARGETS = 31, TARGETS = 5 };
+enum { TARGET_PORTABLE = 1, TARGET_FMA = 2, TARGET_AVX2 = 4, TARGET_AVX512 = 8, TARGET_NEON = 16,
+       TARGET_WASM128 = 32 };
+enum { ALL_TARGETS = 63, TARGETS = 6 };
 extern const char *const target_names[TARGETS];   /* in the order of the bits */
 
 enum { FAMILY_MOMENTS = 1, FAMILY_CURVES = 2, FAMILY_DISTANCE = 4, FAMILY_CLOSURE = 8,
@@ -219,6 +220,7 @@ int  spec_degree(const char *text);          /* 0 .. MAX_DEGREE */
 unsigned spec_list(const char *option, const char *text, const char *const *words, int count);
 void spec_prefix(const char *text);
 char *spec_files(const Request *request);    /* comments: the files that the command names */
+const char *const *spec_paths(const Request *request);   /* of these files; ends with NULL */
 int  spec_has_rings(const Request *request);
 void spec_complete(Request *request);        /* defaults, monomials of the family, names, command */
 
@@ -238,7 +240,7 @@ Poly     green_curve(int points, Poly integrand);
 
 typedef uint32_t Ref;                        /* index of a node; children are smaller */
 #define NONE UINT32_MAX
-#define OP(name, operands, commutes, fma, add, divide, c, x86, neon) OP_##name,
+#define OP(name, operands, commutes, fma, add, divide, c, x86, neon, wasm) OP_##name,
 enum {
 #include "ops.def"
 	OPS };
@@ -281,7 +283,7 @@ int  op_add_cost(int op);
 int  op_divide_cost(int op);
 int  op_commutes(int op);                    /* do its first two operands? */
 const char *op_name(int op);
-enum { SPELL_C, SPELL_X86, SPELL_NEON, SPELLINGS };
+enum { SPELL_C, SPELL_X86, SPELL_NEON, SPELL_WASM, SPELLINGS };
 const char *op_spelling(int op, int how);    /* how: a column of ops.def */
 
 Dag *dag_new(const char *scheme);
@@ -557,6 +559,8 @@ typedef struct {                             /* one row per target */
 } Target;
 extern const Target targets[];
 extern const int target_count;
+/* The program of a ring that a target runs. */
+const Program *emit_ring_program(const Ring *ring, const Target *target, int is_float);
 
 typedef struct { const char *real, *suffix, *unit; int is_float, lanes; unsigned bit; } Precision;
 extern const Precision precisions[];
@@ -632,10 +636,14 @@ Text bundle_depfile(const Files *outputs, const Request *request);
 
 /* ---- deliver.c: the only file that writes to disk -------------------------------------------- */
 
-typedef struct { const char *out, *manifest; int check, dry_run, verbose, quiet; } Delivery;
+typedef struct {
+	const char *out, *manifest;
+	const char *const *sources;          /* files that were read; ends with NULL */
+	int check, dry_run, verbose, quiet;
+} Delivery;
 
 /* `folder` goes to directory out (NULL: no directory) under a manifest that names what gen wrote
- * there; `single` are paths of their own. Returns the exit status. */
+ * there; `single` are paths of their own. No source is written over. Returns the exit status. */
 int deliver(const Files *folder, const Files *single, const Delivery *how);
 
 #endif

@@ -34,7 +34,8 @@ static const char USAGE[] =
 	"(repeatable)\n"
 	"  --edges LIST           line,quad,conic,cubic (default: all; of monomials: line)\n"
 	"  --precision LIST       double,float (default: both)\n"
-	"  --targets LIST         portable,fma,avx2,avx512,neon (default: all; portable always)\n"
+	"  --targets LIST         portable,fma,avx2,avx512,neon,wasm128 (default: all; portable "
+	"always)\n"
 	"  --scheme NAME          how rings are evaluated, where that scheme applies "
 	"(default: the cheapest)\n"
 	"  --prefix NAME          every symbol, macro and file name starts with NAME instead of "
@@ -359,6 +360,7 @@ static int emit(const Options *o)
 	Text manifest = bundle_manifest(&files, request, &kernels);
 	Delivery how = o->delivery;
 	how.manifest = bundle_name("edgewise_manifest.json", request->prefix);
+	how.sources = spec_paths(request);
 	if (o->single_header) {
 		add_file(&single, o->single_header, bundle_single_header(&files, request));
 		file_new(&outputs, o->single_header);

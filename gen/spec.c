@@ -135,7 +135,9 @@ const char *const family_names[FAMILIES] = {
 	"moments", "curves", "distance", "closure", "coverage", "filters"
 };
 const char *const edge_names[EDGES] = { "line", "quad", "conic", "cubic" };
-const char *const target_names[TARGETS] = { "portable", "fma", "avx2", "avx512", "neon" };
+const char *const target_names[TARGETS] = {
+	"portable", "fma", "avx2", "avx512", "neon", "wasm128"
+};
 
 static void add_list(Text *text, const char *option, unsigned bits, const char *const *names,
 	int count)
@@ -191,6 +193,16 @@ char *spec_files(const Request *request)
 		text_add(&text, " */\n");
 	}
 	return text_take(&text);
+}
+
+const char *const *spec_paths(const Request *request)
+{
+	const char **paths = allocate((size_t)(request->filters + 1) * sizeof *paths);
+	int count = 0;
+	for (int i = 0; i < request->filters; ++i)
+		if (request->filter[i].path)
+			paths[count++] = request->filter[i].path;
+	return paths;
 }
 
 int spec_has_rings(const Request *request)

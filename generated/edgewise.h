@@ -22,11 +22,11 @@
  * A ring is n vertices (x[i], y[i]); the edge from the last to the first is implied, and a ring
  * that repeats its first vertex at the end is fine: a repeated vertex contributes exactly 0. n
  * of 0, 1 or 2 gives 0. NaN or infinity in gives NaN or infinity out. Inputs are never changed,
- * nothing allocates, every function is reentrant. Functions ending in f take and return float. u
- * is 2^-53 (float: 2^-24) and gamma_k is k u / (1 - k u).
+ * nothing but images allocates, every function is reentrant. Functions ending in f take and
+ * return float. u is 2^-53 (float: 2^-24) and gamma_k is k u / (1 - k u).
  *
- * Results have the same bits on every CPU and target with fused multiply-add; portable alone may
- * differ. */
+ * Results have the same bits on every CPU and target with fused multiply-add; portable and
+ * wasm128, which have none, may differ. */
 
 #define EW_VERSION "0.1.0"
 #define EW_MAX_DEGREE 8
@@ -107,9 +107,9 @@ float ew_momentf(int m, int n_, const float *x, const float *y, size_t n);
 double ew_area(const double *x, const double *y, size_t n);
 float ew_areaf(const float *x, const float *y, size_t n);
 
-/* Centroid, computed about the first vertex. If the area is 0: EW_ZERO_AREA, and c is NaN.
- * Error: |c - exact| <= (B + |c - v| A) / (|area| - A) + 4 u |c - v| + u |c|, A and B the bounds
- * of area and first moment about vertex v. */
+/* Centroid (c[0], c[1]), computed about the first vertex. If the area is 0: EW_ZERO_AREA, and c
+ * is NaN. Error: |c - exact| <= (B + |c - v| A) / (|area| - A) + 4 u |c - v| + u |c|, A and B
+ * the bounds of area and first moment about vertex v. */
 int ew_centroid(const double *x, const double *y, size_t n, double c[2]);
 int ew_centroidf(const float *x, const float *y, size_t n, float c[2]);
 
@@ -132,8 +132,8 @@ int ew_moments_boundedf(int degree, const float *x, const float *y, size_t n, fl
 
 /* Area about (0,0) as if summed in twice the precision (Dot2: Ogita, Rump, Oishi 2005): faithful
  * as long as sum |x_i y_(i+1)| + |x_(i+1) y_i| <= |2 area| 2^52 / (4 n^2) (float: 2^23 / (4
- * n^2)) and products neither underflow nor overflow (portable: coordinates below 2^996, float
- * 2^115). */
+ * n^2)) and products neither underflow nor overflow (portable, wasm128: coordinates below 2^996,
+ * float 2^115). */
 double ew_area_compensated(const double *x, const double *y, size_t n);
 float ew_area_compensatedf(const float *x, const float *y, size_t n);
 
@@ -235,7 +235,7 @@ double ew_radius(int k, const double *x, const double *y, size_t n, double cx, d
 float ew_radiusf(int k, const float *x, const float *y, size_t n, float cx, float cy);
 
 /* (x0-px)(y0-py) - (x1-px)(y1-py): its sum over the edges of a closed boundary is 0, in any
- * order of the edges. */
+ * order of the edges. Error: gamma_4 times the sum of both |products|. */
 double ew_line_closure(double x0, double y0, double x1, double y1, double px, double py);
 float ew_line_closuref(float x0, float y0, float x1, float y1, float px, float py);
 
@@ -376,12 +376,13 @@ extern const ew_filter ew_filter_mitchell;
 
 /* What one line edge adds to the integral of a filter, centred at (cx,cy), over the region, and
  * that integral for the region inside one ring: - sum over edges of the integral of F(x, y(x))
- * dx, F the integral of f over y from below. Swapping the ends negates the first bit for bit; an
- * edge that is vertical, a point, below or beside the support gives exactly 0. NaN or infinity
- * gives NaN. Error of an edge: gamma_k C + 9 u (|y0 - cy| + |y1 - cy|) D, k from the manifest, C
- * the sum over the cells of the filter of its polynomials' terms, in coordinates of the cell,
- * with positive sign, and D the largest |f| times the width of the support. Source: Green's
- * theorem; raster by piecewise polynomial filters: Manson and Schaefer 2013. */
+ * dx, F the integral of f over y from below. The unit of the filter is that of the coordinates:
+ * the box is a square of side 1. Swapping the ends negates the first bit for bit; an edge that
+ * is vertical, a point, below or beside the support gives exactly 0. NaN or infinity gives NaN.
+ * Error of an edge: gamma_k C + 9 u (|y0 - cy| + |y1 - cy|) D, k from the manifest, C the sum
+ * over the cells of the filter of its polynomials' terms, in coordinates of the cell, with
+ * positive sign, and D the largest |f| times the width of the support. Source: Green's theorem;
+ * raster by piecewise polynomial filters: Manson and Schaefer 2013. */
 double ew_line_box(double x0, double y0, double x1, double y1, double cx, double cy);
 float ew_line_boxf(float x0, float y0, float x1, float y1, float cx, float cy);
 double ew_box(const double *x, const double *y, size_t n, double cx, double cy);
@@ -427,9 +428,9 @@ double ew_line_coverage(double x0, double y0, double x1, double y1, double u0, d
 float ew_line_coveragef(float x0, float y0, float x1, float y1, float u0, float u1, float v0,
 	float v1);
 
-/* Area of the part of a ring inside the rectangle [u0,u1] x [v0,v1]; 0 if that is empty. Error:
- * the sum of those of the edges, and gamma_(ceil(n/8) + 2) (float: gamma_68) of the sum of
- * |edges|. */
+/* Area of the part of a ring inside the rectangle [u0,u1] x [v0,v1]; 0 if that is empty. Bad
+ * input as ew_below. Error: the sum of those of the edges, and gamma_(ceil(n/8) + 2) (float:
+ * gamma_68) of the sum of |edges|. */
 double ew_coverage(const double *x, const double *y, size_t n, double u0, double u1, double v0,
 	double v1);
 float ew_coveragef(const float *x, const float *y, size_t n, float u0, float u1, float v0,

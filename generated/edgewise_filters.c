@@ -34,6 +34,11 @@
 #else
 #define EW_DEPOSIT_NEON(deposit) NULL
 #endif
+#if EW_BUILD_WASM128
+#define EW_DEPOSIT_WASM128(deposit) deposit
+#else
+#define EW_DEPOSIT_WASM128(deposit) NULL
+#endif
 
 /* filter box: separable, even, degree 0
  *  support -1/2 <= x <= 1/2, -1/2 <= y <= 1/2: 1 x 1 pixels, knots whole pixels apart
@@ -49,6 +54,7 @@ const ew_filter ew_filter_box = {
 		EW_DEPOSIT_AVX2(ew_deposit_box_avx2),
 		EW_DEPOSIT_AVX512(ew_deposit_box_avx512),
 		EW_DEPOSIT_NEON(ew_deposit_box_neon),
+		EW_DEPOSIT_WASM128(ew_deposit_box_wasm128),
 	}
 };
 
@@ -66,6 +72,7 @@ const ew_filter ew_filter_tent = {
 		EW_DEPOSIT_AVX2(ew_deposit_tent_avx2),
 		EW_DEPOSIT_AVX512(ew_deposit_tent_avx512),
 		EW_DEPOSIT_NEON(ew_deposit_tent_neon),
+		EW_DEPOSIT_WASM128(ew_deposit_tent_wasm128),
 	}
 };
 
@@ -83,6 +90,7 @@ const ew_filter ew_filter_bspline2 = {
 		EW_DEPOSIT_AVX2(ew_deposit_bspline2_avx2),
 		EW_DEPOSIT_AVX512(ew_deposit_bspline2_avx512),
 		EW_DEPOSIT_NEON(ew_deposit_bspline2_neon),
+		EW_DEPOSIT_WASM128(ew_deposit_bspline2_wasm128),
 	}
 };
 
@@ -100,6 +108,7 @@ const ew_filter ew_filter_bspline3 = {
 		EW_DEPOSIT_AVX2(ew_deposit_bspline3_avx2),
 		EW_DEPOSIT_AVX512(ew_deposit_bspline3_avx512),
 		EW_DEPOSIT_NEON(ew_deposit_bspline3_neon),
+		EW_DEPOSIT_WASM128(ew_deposit_bspline3_wasm128),
 	}
 };
 
@@ -117,6 +126,7 @@ const ew_filter ew_filter_catmull_rom = {
 		EW_DEPOSIT_AVX2(ew_deposit_catmull_rom_avx2),
 		EW_DEPOSIT_AVX512(ew_deposit_catmull_rom_avx512),
 		EW_DEPOSIT_NEON(ew_deposit_catmull_rom_neon),
+		EW_DEPOSIT_WASM128(ew_deposit_catmull_rom_wasm128),
 	}
 };
 
@@ -134,5 +144,6 @@ const ew_filter ew_filter_mitchell = {
 		EW_DEPOSIT_AVX2(ew_deposit_mitchell_avx2),
 		EW_DEPOSIT_AVX512(ew_deposit_mitchell_avx512),
 		EW_DEPOSIT_NEON(ew_deposit_mitchell_neon),
+		EW_DEPOSIT_WASM128(ew_deposit_mitchell_wasm128),
 	}
 };

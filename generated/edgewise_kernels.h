@@ -79,6 +79,12 @@
 #else
 #define EW_ARM 0
 #endif
+#if defined(__wasm_simd128__)      /* a module has it or not: nothing to ask */
+#define EW_WASM 1
+#define EW_ATTRIBUTE_WASM128
+#else
+#define EW_WASM 0
+#endif
 #if defined(__FP_FAST_FMA)
 #define EW_FAST_FMA 1
 #else
@@ -88,6 +94,7 @@
 #define EW_BUILD_AVX2 EW_X86
 #define EW_BUILD_AVX512 EW_X86
 #define EW_BUILD_NEON EW_ARM
+#define EW_BUILD_WASM128 EW_WASM
 
 #define EW_LEAST DBL_MIN
 #define EW_LEASTf FLT_MIN
@@ -197,6 +204,14 @@ static inline double ew_ring_fraction(double a)
 	memcpy(&a, &bits, sizeof a);
 	return a;
 }
+/* a b - p exactly, p = a b rounded (Dekker 1971); a and b below 2^996. */
+static inline double ew_ring_lost(double a, double b, double p)
+{
+	const double ta = 134217729.0 * a, tb = 134217729.0 * b;
+	const double ha = ta - (ta - a), hb = tb - (tb - b);
+	const double la = a - ha, lb = b - hb;
+	return ((ha * hb - p) + ha * lb + la * hb) + la * lb;
+}
 static inline float ew_ring_maxf(float a, float b)
 {
 	return a > b ? a : b;
@@ -225,6 +240,62 @@ static inline float ew_ring_fractionf(float a)
 	memcpy(&a, &bits, sizeof a);
 	return a;
 }
+/* a b - p exactly, p = a b rounded (Dekker 1971); a and b below 2^115. */
+static inline float ew_ring_lostf(float a, float b, float p)
+{
+	const float ta = 4097.0f * a, tb = 4097.0f * b;
+	const float ha = ta - (ta - a), hb = tb - (tb - b);
+	const float la = a - ha, lb = b - hb;
+	return ((ha * hb - p) + ha * lb + la * hb) + la * lb;
+}
+
+#if EW_BUILD_WASM128
+#include <wasm_simd128.h>
+#define EW_LEAST_f64x2 DBL_MIN
+#define EW_CHOOSE_f64x2(a, b, c) \
+	wasm_v128_bitselect(b, c, wasm_f64x2_gt(a, wasm_f64x2_splat(0)))
+#define EW_BITS_f64x2(a) wasm_i64x2_sub(a, wasm_i64x2_splat(0x3fe6a09e667f3bcd))
+#define EW_EXPONENT_f64x2(a) wasm_f64x2_sub(wasm_v128_or( \
+	wasm_u64x2_shr(EW_BITS_f64x2(a), 52), wasm_f64x2_splat(0x1p52)), wasm_f64x2_splat(0x1p52))
+#define EW_FRACTION_f64x2(a) wasm_i64x2_sub(a, \
+	wasm_i64x2_shl(wasm_u64x2_shr(EW_BITS_f64x2(a), 52), 52))
+static inline v128_t ew_ring_lost_f64x2(v128_t a, v128_t b, v128_t p)
+{
+	const v128_t splitter = wasm_f64x2_splat(134217729.0);
+	const v128_t ta = wasm_f64x2_mul(splitter, a);
+	const v128_t ha = wasm_f64x2_sub(ta, wasm_f64x2_sub(ta, a));
+	const v128_t la = wasm_f64x2_sub(a, ha);
+	const v128_t tb = wasm_f64x2_mul(splitter, b);
+	const v128_t hb = wasm_f64x2_sub(tb, wasm_f64x2_sub(tb, b));
+	const v128_t lb = wasm_f64x2_sub(b, hb);
+	const v128_t high = wasm_f64x2_sub(wasm_f64x2_mul(ha, hb), p);
+	const v128_t middle = wasm_f64x2_add(wasm_f64x2_add(high, wasm_f64x2_mul(ha, lb)),
+		wasm_f64x2_mul(la, hb));
+	return wasm_f64x2_add(middle, wasm_f64x2_mul(la, lb));
+}
+#define EW_LEAST_f32x4 FLT_MIN
+#define EW_CHOOSE_f32x4(a, b, c) \
+	wasm_v128_bitselect(b, c, wasm_f32x4_gt(a, wasm_f32x4_splat(0)))
+#define EW_BITS_f32x4(a) wasm_i32x4_sub(a, wasm_i32x4_splat(0x3f3504f3))
+#define EW_EXPONENT_f32x4(a) \
+	wasm_f32x4_convert_i32x4(wasm_u32x4_shr(EW_BITS_f32x4(a), 23))
+#define EW_FRACTION_f32x4(a) wasm_i32x4_sub(a, \
+	wasm_i32x4_shl(wasm_u32x4_shr(EW_BITS_f32x4(a), 23), 23))
+static inline v128_t ew_ring_lost_f32x4(v128_t a, v128_t b, v128_t p)
+{
+	const v128_t splitter = wasm_f32x4_splat(4097.0f);
+	const v128_t ta = wasm_f32x4_mul(splitter, a);
+	const v128_t ha = wasm_f32x4_sub(ta, wasm_f32x4_sub(ta, a));
+	const v128_t la = wasm_f32x4_sub(a, ha);
+	const v128_t tb = wasm_f32x4_mul(splitter, b);
+	const v128_t hb = wasm_f32x4_sub(tb, wasm_f32x4_sub(tb, b));
+	const v128_t lb = wasm_f32x4_sub(b, hb);
+	const v128_t high = wasm_f32x4_sub(wasm_f32x4_mul(ha, hb), p);
+	const v128_t middle = wasm_f32x4_add(wasm_f32x4_add(high, wasm_f32x4_mul(ha, lb)),
+		wasm_f32x4_mul(la, hb));
+	return wasm_f32x4_add(middle, wasm_f32x4_mul(la, lb));
+}
+#endif
 
 /* X(m, n, symbol, k): single edges; |result - exact| <= gamma_k W */
 #define EW_LINES_DOUBLE(X) \
@@ -1138,6 +1209,101 @@ enum {
 	X(EW_RING_X1Y7, ew_ring_x1y7_neon, 38, 2) \
 	X(EW_RING_X0Y8, ew_ring_x0y8_neon, 17, 2)
 
+/* X(id, kernel, f, a): wasm128, double; per item f on the FMA pipe, a additions */
+#define EW_RINGS_WASM128_DOUBLE(X) \
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0_wasm128, 1, 3) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1_wasm128, 4, 6) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2_wasm128, 12, 14) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3_wasm128, 18, 23) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4_wasm128, 33, 34) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5_wasm128, 58, 52) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6_wasm128, 81, 71) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7_wasm128, 108, 93) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8_wasm128, 139, 118) \
+	X(EW_RING_MAGNITUDES_0, ew_ring_magnitudes_0_wasm128, 1, 3) \
+	X(EW_RING_MAGNITUDES_1, ew_ring_magnitudes_1_wasm128, 6, 6) \
+	X(EW_RING_MAGNITUDES_2, ew_ring_magnitudes_2_wasm128, 13, 13) \
+	X(EW_RING_MAGNITUDES_3, ew_ring_magnitudes_3_wasm128, 24, 23) \
+	X(EW_RING_MAGNITUDES_4, ew_ring_magnitudes_4_wasm128, 39, 36) \
+	X(EW_RING_MAGNITUDES_5, ew_ring_magnitudes_5_wasm128, 58, 52) \
+	X(EW_RING_MAGNITUDES_6, ew_ring_magnitudes_6_wasm128, 81, 71) \
+	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7_wasm128, 108, 93) \
+	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8_wasm128, 139, 118) \
+	X(EW_RING_COMPENSATED, ew_ring_compensated_wasm128, 14, 36) \
+	X(EW_RING_LINE_0, ew_ring_line_0_wasm128, 2, 2) \
+	X(EW_RING_QUAD_0, ew_ring_quad_0_wasm128, 7, 6) \
+	X(EW_RING_QUAD_1, ew_ring_quad_1_wasm128, 24, 20) \
+	X(EW_RING_QUAD_2, ew_ring_quad_2_wasm128, 51, 53) \
+	X(EW_RING_QUAD_4, ew_ring_quad_4_wasm128, 124, 128) \
+	X(EW_RING_QUAD_8, ew_ring_quad_8_wasm128, 498, 506) \
+	X(EW_RING_CONIC_0, ew_ring_conic_0_wasm128, 57, 75) \
+	X(EW_RING_CONIC_1, ew_ring_conic_1_wasm128, 56, 53) \
+	X(EW_RING_CONIC_2, ew_ring_conic_2_wasm128, 111, 83) \
+	X(EW_RING_CONIC_4, ew_ring_conic_4_wasm128, 299, 211) \
+	X(EW_RING_CONIC_8, ew_ring_conic_8_wasm128, 1492, 970) \
+	X(EW_RING_CUBIC_0, ew_ring_cubic_0_wasm128, 14, 12) \
+	X(EW_RING_CUBIC_1, ew_ring_cubic_1_wasm128, 48, 40) \
+	X(EW_RING_CUBIC_2, ew_ring_cubic_2_wasm128, 96, 98) \
+	X(EW_RING_CUBIC_4, ew_ring_cubic_4_wasm128, 206, 210) \
+	X(EW_RING_CUBIC_8, ew_ring_cubic_8_wasm128, 779, 789) \
+	X(EW_RING_RADIUS_INVERSE, ew_ring_radius_inverse_wasm128, 45, 59) \
+	X(EW_RING_RADIUS_1, ew_ring_radius_1_wasm128, 41, 56) \
+	X(EW_RING_RADIUS_3, ew_ring_radius_3_wasm128, 55, 62) \
+	X(EW_RING_RADIUS_5, ew_ring_radius_5_wasm128, 63, 67) \
+	X(EW_RING_CLOSURE, ew_ring_closure_wasm128, 2, 2) \
+	X(EW_RING_COVERAGE, ew_ring_coverage_wasm128, 9, 44) \
+	X(EW_RING_BOX, ew_ring_box_wasm128, 14, 52) \
+	X(EW_RING_TENT, ew_ring_tent_wasm128, 95, 165) \
+	X(EW_RING_BSPLINE2, ew_ring_bspline2_wasm128, 319, 394) \
+	X(EW_RING_BSPLINE3, ew_ring_bspline3_wasm128, 845, 883) \
+	X(EW_RING_CATMULL_ROM, ew_ring_catmull_rom_wasm128, 845, 849) \
+	X(EW_RING_MITCHELL, ew_ring_mitchell_wasm128, 845, 917) \
+	X(EW_RING_X0Y0, ew_ring_x0y0_wasm128, 1, 3) \
+	X(EW_RING_X1Y0, ew_ring_x1y0_wasm128, 3, 3) \
+	X(EW_RING_X0Y1, ew_ring_x0y1_wasm128, 3, 3) \
+	X(EW_RING_X2Y0, ew_ring_x2y0_wasm128, 5, 4) \
+	X(EW_RING_X1Y1, ew_ring_x1y1_wasm128, 7, 5) \
+	X(EW_RING_X0Y2, ew_ring_x0y2_wasm128, 5, 4) \
+	X(EW_RING_X3Y0, ew_ring_x3y0_wasm128, 6, 5) \
+	X(EW_RING_X2Y1, ew_ring_x2y1_wasm128, 10, 8) \
+	X(EW_RING_X1Y2, ew_ring_x1y2_wasm128, 10, 8) \
+	X(EW_RING_X0Y3, ew_ring_x0y3_wasm128, 6, 5) \
+	X(EW_RING_X4Y0, ew_ring_x4y0_wasm128, 9, 6) \
+	X(EW_RING_X3Y1, ew_ring_x3y1_wasm128, 10, 9) \
+	X(EW_RING_X2Y2, ew_ring_x2y2_wasm128, 15, 10) \
+	X(EW_RING_X1Y3, ew_ring_x1y3_wasm128, 10, 9) \
+	X(EW_RING_X0Y4, ew_ring_x0y4_wasm128, 9, 6) \
+	X(EW_RING_X5Y0, ew_ring_x5y0_wasm128, 11, 7) \
+	X(EW_RING_X4Y1, ew_ring_x4y1_wasm128, 16, 10) \
+	X(EW_RING_X3Y2, ew_ring_x3y2_wasm128, 18, 11) \
+	X(EW_RING_X2Y3, ew_ring_x2y3_wasm128, 18, 11) \
+	X(EW_RING_X1Y4, ew_ring_x1y4_wasm128, 16, 10) \
+	X(EW_RING_X0Y5, ew_ring_x0y5_wasm128, 11, 7) \
+	X(EW_RING_X6Y0, ew_ring_x6y0_wasm128, 13, 8) \
+	X(EW_RING_X5Y1, ew_ring_x5y1_wasm128, 17, 11) \
+	X(EW_RING_X4Y2, ew_ring_x4y2_wasm128, 23, 13) \
+	X(EW_RING_X3Y3, ew_ring_x3y3_wasm128, 25, 13) \
+	X(EW_RING_X2Y4, ew_ring_x2y4_wasm128, 23, 13) \
+	X(EW_RING_X1Y5, ew_ring_x1y5_wasm128, 17, 11) \
+	X(EW_RING_X0Y6, ew_ring_x0y6_wasm128, 13, 8) \
+	X(EW_RING_X7Y0, ew_ring_x7y0_wasm128, 15, 9) \
+	X(EW_RING_X6Y1, ew_ring_x6y1_wasm128, 31, 15) \
+	X(EW_RING_X5Y2, ew_ring_x5y2_wasm128, 35, 19) \
+	X(EW_RING_X4Y3, ew_ring_x4y3_wasm128, 36, 21) \
+	X(EW_RING_X3Y4, ew_ring_x3y4_wasm128, 36, 21) \
+	X(EW_RING_X2Y5, ew_ring_x2y5_wasm128, 35, 19) \
+	X(EW_RING_X1Y6, ew_ring_x1y6_wasm128, 31, 15) \
+	X(EW_RING_X0Y7, ew_ring_x0y7_wasm128, 15, 9) \
+	X(EW_RING_X8Y0, ew_ring_x8y0_wasm128, 17, 10) \
+	X(EW_RING_X7Y1, ew_ring_x7y1_wasm128, 38, 17) \
+	X(EW_RING_X6Y2, ew_ring_x6y2_wasm128, 40, 22) \
+	X(EW_RING_X5Y3, ew_ring_x5y3_wasm128, 46, 25) \
+	X(EW_RING_X4Y4, ew_ring_x4y4_wasm128, 45, 26) \
+	X(EW_RING_X3Y5, ew_ring_x3y5_wasm128, 46, 25) \
+	X(EW_RING_X2Y6, ew_ring_x2y6_wasm128, 40, 22) \
+	X(EW_RING_X1Y7, ew_ring_x1y7_wasm128, 38, 17) \
+	X(EW_RING_X0Y8, ew_ring_x0y8_wasm128, 17, 10)
+
 /* X(function, id, edge, k): a polynomial over a ring, and over one edge with its k; float */
 #define EW_POLYNOMIALS_FLOAT(X)
 
@@ -1616,6 +1782,101 @@ enum {
 	X(EW_RING_X1Y7, ew_ring_x1y7f_neon, 38, 2) \
 	X(EW_RING_X0Y8, ew_ring_x0y8f_neon, 17, 2)
 
+/* X(id, kernel, f, a): wasm128, float; per item f on the FMA pipe, a additions */
+#define EW_RINGS_WASM128_FLOAT(X) \
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0f_wasm128, 1, 3) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1f_wasm128, 4, 6) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2f_wasm128, 12, 14) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3f_wasm128, 18, 23) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4f_wasm128, 33, 34) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5f_wasm128, 58, 52) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6f_wasm128, 81, 71) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7f_wasm128, 108, 93) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8f_wasm128, 139, 118) \
+	X(EW_RING_MAGNITUDES_0, ew_ring_magnitudes_0f_wasm128, 1, 3) \
+	X(EW_RING_MAGNITUDES_1, ew_ring_magnitudes_1f_wasm128, 6, 6) \
+	X(EW_RING_MAGNITUDES_2, ew_ring_magnitudes_2f_wasm128, 13, 13) \
+	X(EW_RING_MAGNITUDES_3, ew_ring_magnitudes_3f_wasm128, 24, 23) \
+	X(EW_RING_MAGNITUDES_4, ew_ring_magnitudes_4f_wasm128, 39, 36) \
+	X(EW_RING_MAGNITUDES_5, ew_ring_magnitudes_5f_wasm128, 58, 52) \
+	X(EW_RING_MAGNITUDES_6, ew_ring_magnitudes_6f_wasm128, 81, 71) \
+	X(EW_RING_MAGNITUDES_7, ew_ring_magnitudes_7f_wasm128, 108, 93) \
+	X(EW_RING_MAGNITUDES_8, ew_ring_magnitudes_8f_wasm128, 139, 118) \
+	X(EW_RING_COMPENSATED, ew_ring_compensatedf_wasm128, 14, 36) \
+	X(EW_RING_LINE_0, ew_ring_line_0f_wasm128, 2, 2) \
+	X(EW_RING_QUAD_0, ew_ring_quad_0f_wasm128, 7, 6) \
+	X(EW_RING_QUAD_1, ew_ring_quad_1f_wasm128, 24, 20) \
+	X(EW_RING_QUAD_2, ew_ring_quad_2f_wasm128, 51, 53) \
+	X(EW_RING_QUAD_4, ew_ring_quad_4f_wasm128, 124, 128) \
+	X(EW_RING_QUAD_8, ew_ring_quad_8f_wasm128, 498, 506) \
+	X(EW_RING_CONIC_0, ew_ring_conic_0f_wasm128, 37, 55) \
+	X(EW_RING_CONIC_1, ew_ring_conic_1f_wasm128, 41, 38) \
+	X(EW_RING_CONIC_2, ew_ring_conic_2f_wasm128, 81, 58) \
+	X(EW_RING_CONIC_4, ew_ring_conic_4f_wasm128, 244, 161) \
+	X(EW_RING_CONIC_8, ew_ring_conic_8f_wasm128, 1357, 840) \
+	X(EW_RING_CUBIC_0, ew_ring_cubic_0f_wasm128, 14, 12) \
+	X(EW_RING_CUBIC_1, ew_ring_cubic_1f_wasm128, 48, 40) \
+	X(EW_RING_CUBIC_2, ew_ring_cubic_2f_wasm128, 96, 98) \
+	X(EW_RING_CUBIC_4, ew_ring_cubic_4f_wasm128, 206, 210) \
+	X(EW_RING_CUBIC_8, ew_ring_cubic_8f_wasm128, 779, 789) \
+	X(EW_RING_RADIUS_INVERSE, ew_ring_radius_inversef_wasm128, 41, 55) \
+	X(EW_RING_RADIUS_1, ew_ring_radius_1f_wasm128, 37, 52) \
+	X(EW_RING_RADIUS_3, ew_ring_radius_3f_wasm128, 51, 58) \
+	X(EW_RING_RADIUS_5, ew_ring_radius_5f_wasm128, 59, 63) \
+	X(EW_RING_CLOSURE, ew_ring_closuref_wasm128, 2, 2) \
+	X(EW_RING_COVERAGE, ew_ring_coveragef_wasm128, 9, 44) \
+	X(EW_RING_BOX, ew_ring_boxf_wasm128, 14, 52) \
+	X(EW_RING_TENT, ew_ring_tentf_wasm128, 95, 165) \
+	X(EW_RING_BSPLINE2, ew_ring_bspline2f_wasm128, 319, 394) \
+	X(EW_RING_BSPLINE3, ew_ring_bspline3f_wasm128, 845, 883) \
+	X(EW_RING_CATMULL_ROM, ew_ring_catmull_romf_wasm128, 845, 849) \
+	X(EW_RING_MITCHELL, ew_ring_mitchellf_wasm128, 845, 917) \
+	X(EW_RING_X0Y0, ew_ring_x0y0f_wasm128, 1, 3) \
+	X(EW_RING_X1Y0, ew_ring_x1y0f_wasm128, 3, 3) \
+	X(EW_RING_X0Y1, ew_ring_x0y1f_wasm128, 3, 3) \
+	X(EW_RING_X2Y0, ew_ring_x2y0f_wasm128, 5, 4) \
+	X(EW_RING_X1Y1, ew_ring_x1y1f_wasm128, 7, 5) \
+	X(EW_RING_X0Y2, ew_ring_x0y2f_wasm128, 5, 4) \
+	X(EW_RING_X3Y0, ew_ring_x3y0f_wasm128, 6, 5) \
+	X(EW_RING_X2Y1, ew_ring_x2y1f_wasm128, 10, 8) \
+	X(EW_RING_X1Y2, ew_ring_x1y2f_wasm128, 10, 8) \
+	X(EW_RING_X0Y3, ew_ring_x0y3f_wasm128, 6, 5) \
+	X(EW_RING_X4Y0, ew_ring_x4y0f_wasm128, 9, 6) \
+	X(EW_RING_X3Y1, ew_ring_x3y1f_wasm128, 10, 9) \
+	X(EW_RING_X2Y2, ew_ring_x2y2f_wasm128, 15, 10) \
+	X(EW_RING_X1Y3, ew_ring_x1y3f_wasm128, 10, 9) \
+	X(EW_RING_X0Y4, ew_ring_x0y4f_wasm128, 9, 6) \
+	X(EW_RING_X5Y0, ew_ring_x5y0f_wasm128, 11, 7) \
+	X(EW_RING_X4Y1, ew_ring_x4y1f_wasm128, 16, 10) \
+	X(EW_RING_X3Y2, ew_ring_x3y2f_wasm128, 18, 11) \
+	X(EW_RING_X2Y3, ew_ring_x2y3f_wasm128, 18, 11) \
+	X(EW_RING_X1Y4, ew_ring_x1y4f_wasm128, 16, 10) \
+	X(EW_RING_X0Y5, ew_ring_x0y5f_wasm128, 11, 7) \
+	X(EW_RING_X6Y0, ew_ring_x6y0f_wasm128, 13, 8) \
+	X(EW_RING_X5Y1, ew_ring_x5y1f_wasm128, 17, 11) \
+	X(EW_RING_X4Y2, ew_ring_x4y2f_wasm128, 23, 13) \
+	X(EW_RING_X3Y3, ew_ring_x3y3f_wasm128, 25, 13) \
+	X(EW_RING_X2Y4, ew_ring_x2y4f_wasm128, 23, 13) \
+	X(EW_RING_X1Y5, ew_ring_x1y5f_wasm128, 17, 11) \
+	X(EW_RING_X0Y6, ew_ring_x0y6f_wasm128, 13, 8) \
+	X(EW_RING_X7Y0, ew_ring_x7y0f_wasm128, 15, 9) \
+	X(EW_RING_X6Y1, ew_ring_x6y1f_wasm128, 31, 15) \
+	X(EW_RING_X5Y2, ew_ring_x5y2f_wasm128, 35, 19) \
+	X(EW_RING_X4Y3, ew_ring_x4y3f_wasm128, 36, 21) \
+	X(EW_RING_X3Y4, ew_ring_x3y4f_wasm128, 36, 21) \
+	X(EW_RING_X2Y5, ew_ring_x2y5f_wasm128, 35, 19) \
+	X(EW_RING_X1Y6, ew_ring_x1y6f_wasm128, 31, 15) \
+	X(EW_RING_X0Y7, ew_ring_x0y7f_wasm128, 15, 9) \
+	X(EW_RING_X8Y0, ew_ring_x8y0f_wasm128, 17, 10) \
+	X(EW_RING_X7Y1, ew_ring_x7y1f_wasm128, 38, 17) \
+	X(EW_RING_X6Y2, ew_ring_x6y2f_wasm128, 40, 22) \
+	X(EW_RING_X5Y3, ew_ring_x5y3f_wasm128, 46, 25) \
+	X(EW_RING_X4Y4, ew_ring_x4y4f_wasm128, 45, 26) \
+	X(EW_RING_X3Y5, ew_ring_x3y5f_wasm128, 46, 25) \
+	X(EW_RING_X2Y6, ew_ring_x2y6f_wasm128, 40, 22) \
+	X(EW_RING_X1Y7, ew_ring_x1y7f_wasm128, 38, 17) \
+	X(EW_RING_X0Y8, ew_ring_x0y8f_wasm128, 17, 10)
+
 /* X(function, edge, id): a filter over a ring, and over one edge */
 #define EW_FILTERS_DOUBLE(X) \
 	X(ew_box, ew_line_box, EW_RING_BOX) \
@@ -1754,8 +2015,25 @@ enum {
 	X(EW_RING_MOMENTS_7, ew_ring_moments_7_finish_neon) \
 	X(EW_RING_MOMENTS_8, ew_ring_moments_8_finish_neon)
 
+#if EW_BUILD_WASM128
+#define EW_TARGET_WASM128(X) X(WASM128, wasm128, 2)
+#else
+#define EW_TARGET_WASM128(X)
+#endif
+/* X(id, finish): wasm128 */
+#define EW_FINISHES_WASM128(X) \
+	X(EW_RING_MOMENTS_0, ew_ring_moments_0_finish_wasm128) \
+	X(EW_RING_MOMENTS_1, ew_ring_moments_1_finish_wasm128) \
+	X(EW_RING_MOMENTS_2, ew_ring_moments_2_finish_wasm128) \
+	X(EW_RING_MOMENTS_3, ew_ring_moments_3_finish_wasm128) \
+	X(EW_RING_MOMENTS_4, ew_ring_moments_4_finish_wasm128) \
+	X(EW_RING_MOMENTS_5, ew_ring_moments_5_finish_wasm128) \
+	X(EW_RING_MOMENTS_6, ew_ring_moments_6_finish_wasm128) \
+	X(EW_RING_MOMENTS_7, ew_ring_moments_7_finish_wasm128) \
+	X(EW_RING_MOMENTS_8, ew_ring_moments_8_finish_wasm128)
+
 /* X(TARGET, target, doubles): the targets that this compiler builds, and doubles in a register */
-#define EW_TARGETS(X) EW_TARGET_PORTABLE(X) EW_TARGET_FMA(X) EW_TARGET_AVX2(X) EW_TARGET_AVX512(X) EW_TARGET_NEON(X)
+#define EW_TARGETS(X) EW_TARGET_PORTABLE(X) EW_TARGET_FMA(X) EW_TARGET_AVX2(X) EW_TARGET_AVX512(X) EW_TARGET_NEON(X) EW_TARGET_WASM128(X)
 
 #ifdef __cplusplus
 extern "C" {
@@ -1779,14 +2057,6 @@ static inline const double *ew_ring_pad(double *pad, const double *from, size_t 
 		pad[i] = i < rest ? from[i] : 0;
 	return pad;
 }
-/* a b - p exactly, p = a b rounded (Dekker 1971); a and b below 2^996. */
-static inline double ew_ring_lost(double a, double b, double p)
-{
-	const double ta = 134217729.0 * a, tb = 134217729.0 * b;
-	const double ha = ta - (ta - a), hb = tb - (tb - b);
-	const double la = a - ha, lb = b - hb;
-	return ((ha * hb - p) + ha * lb + la * hb) + la * lb;
-}
 /* from, or if fewer than width are left, pad: from[0 .. rest-1], then zeros. */
 static inline const float *ew_ring_padf(float *pad, const float *from, size_t rest, size_t width)
 {
@@ -1795,14 +2065,6 @@ static inline const float *ew_ring_padf(float *pad, const float *from, size_t re
 	for (size_t i = 0; i < width; ++i)
 		pad[i] = i < rest ? from[i] : 0;
 	return pad;
-}
-/* a b - p exactly, p = a b rounded (Dekker 1971); a and b below 2^115. */
-static inline float ew_ring_lostf(float a, float b, float p)
-{
-	const float ta = 4097.0f * a, tb = 4097.0f * b;
-	const float ha = ta - (ta - a), hb = tb - (tb - b);
-	const float la = a - ha, lb = b - hb;
-	return ((ha * hb - p) + ha * lb + la * hb) + la * lb;
 }
 /* From sum[accumulator * stride] to out[output * stride]; those of a vector target take as many
  * neighbours as a register holds. */
@@ -1837,6 +2099,11 @@ EW_RINGS_AVX512_DOUBLE(EW_DECLARE)
 EW_RINGS_NEON_DOUBLE(EW_DECLARE)
 #undef EW_DECLARE
 #endif
+#if EW_BUILD_WASM128
+#define EW_DECLARE(id, kernel, f, a) ew_ring_run kernel;
+EW_RINGS_WASM128_DOUBLE(EW_DECLARE)
+#undef EW_DECLARE
+#endif
 #define EW_DECLARE(id, kernel, f, a) ew_ring_runf kernel;
 EW_RINGS_PORTABLE_FLOAT(EW_DECLARE)
 #undef EW_DECLARE
@@ -1860,6 +2127,11 @@ EW_RINGS_AVX512_FLOAT(EW_DECLARE)
 EW_RINGS_NEON_FLOAT(EW_DECLARE)
 #undef EW_DECLARE
 #endif
+#if EW_BUILD_WASM128
+#define EW_DECLARE(id, kernel, f, a) ew_ring_runf kernel;
+EW_RINGS_WASM128_FLOAT(EW_DECLARE)
+#undef EW_DECLARE
+#endif
 #if EW_BUILD_AVX2
 #define EW_DECLARE(id, finish) ew_ring_finish finish;
 EW_FINISHES_AVX2(EW_DECLARE)
@@ -1875,6 +2147,11 @@ EW_FINISHES_AVX512(EW_DECLARE)
 EW_FINISHES_NEON(EW_DECLARE)
 #undef EW_DECLARE
 #endif
+#if EW_BUILD_WASM128
+#define EW_DECLARE(id, finish) ew_ring_finish finish;
+EW_FINISHES_WASM128(EW_DECLARE)
+#undef EW_DECLARE
+#endif
 
 /* Piece i of an edge within a cell of the pixel grid moved by the corner of a filter, (x[i], y[i]) ->
  * (x[reach + i], y[reach + i]) relative to the cell, adds out[(r N + m) reach + i] units to row r <= N, column
@@ -1887,7 +2164,7 @@ struct ew_filter {
 	double first_x, first_y, last_x, last_y;   /* support, from the centre */
 	double unit;     /* of the deposits */
 	int ring;        /* its kernels over rings */
-	ew_deposit *deposit[5];     /* by target, lowest bit first; NULL: not built */
+	ew_deposit *deposit[6];     /* by target, lowest bit first; NULL: not built */
 };
 
 /* X(filter, kernel, f, a): deposits, portable; per piece f on the FMA pipe, a additions */
@@ -1957,6 +2234,20 @@ EW_DEPOSITS_AVX512(EW_DECLARE)
 #if EW_BUILD_NEON
 #define EW_DECLARE(filter, kernel, f, a) ew_deposit kernel;
 EW_DEPOSITS_NEON(EW_DECLARE)
+#undef EW_DECLARE
+#endif
+
+/* X(filter, kernel, f, a): deposits, wasm128; per piece f on the FMA pipe, a additions */
+#define EW_DEPOSITS_WASM128(X) \
+	X(ew_filter_box, ew_deposit_box_wasm128, 6, 13) \
+	X(ew_filter_tent, ew_deposit_tent_wasm128, 37, 49) \
+	X(ew_filter_bspline2, ew_deposit_bspline2_wasm128, 96, 101) \
+	X(ew_filter_bspline3, ew_deposit_bspline3_wasm128, 191, 193) \
+	X(ew_filter_catmull_rom, ew_deposit_catmull_rom_wasm128, 191, 193) \
+	X(ew_filter_mitchell, ew_deposit_mitchell_wasm128, 191, 193)
+#if EW_BUILD_WASM128
+#define EW_DECLARE(filter, kernel, f, a) ew_deposit kernel;
+EW_DEPOSITS_WASM128(EW_DECLARE)
 #undef EW_DECLARE
 #endif
 

@@ -37,7 +37,7 @@ EW_SCALAR(f, float)
 #endif
 #undef EW_SCALAR
 
-#if EW_BUILD_AVX2 || EW_BUILD_AVX512 || EW_BUILD_NEON
+#if EW_BUILD_AVX2 || EW_BUILD_AVX512 || EW_BUILD_NEON || EW_BUILD_WASM128
 /* Where rings start, in bytes; hidden, or compilers keep the same in vertices too. */
 EW_INLINE size_t ew_ring_bytes(size_t start, size_t size)
 {
@@ -419,6 +419,115 @@ EW_INLINE void ew_ring_block_neonf(const float *from, const size_t *start, float
 #define EW_SUB(a, b) vsubq_f32(a, b)
 #define EW_SELECT(length, c, v, first) vbslq_f32(vcgtq_f32(length, c), v, first)
 #define EW_EVEN(a, b) vuzp1q_f32(a, b)
+#define EW_IS_FLOAT 1
+#include "edgewise_columns_template.h"
+#undef EW_IS_FLOAT
+#endif
+#endif
+
+#if EW_BUILD_WASM128
+#include <wasm_simd128.h>
+#include "edgewise_items_wasm128.h"
+
+static void ew_ring_divide_wasm128(const double *a, const double *b, const double *c, size_t count,
+	double *to)
+{
+	for (size_t i = 0; i < count; i += 2)
+		wasm_v128_store(to + i, wasm_f64x2_add(wasm_v128_load(c + i),
+			wasm_f64x2_div(wasm_v128_load(a + i), wasm_v128_load(b + i))));
+}
+
+#ifdef EW_MAX_DEGREE
+EW_INLINE uint32_t ew_ring_most_wasm128(v128_t n)
+{
+	n = wasm_u32x4_max(n, wasm_i32x4_shuffle(n, n, 2, 3, 0, 1));
+	n = wasm_u32x4_max(n, wasm_i32x4_shuffle(n, n, 1, 0, 3, 2));
+	return wasm_u32x4_extract_lane(n, 0);
+}
+#endif
+
+#ifdef EW_HAS_DOUBLE
+EW_INLINE void ew_ring_block_wasm128(const double *from, const size_t *start, v128_t column[2])
+{
+	const v128_t r0 = wasm_v128_load(EW_DOUBLES(start[0]));
+	const v128_t r1 = wasm_v128_load(EW_DOUBLES(start[1]));
+	column[0] = wasm_i64x2_shuffle(r0, r1, 0, 2);
+	column[1] = wasm_i64x2_shuffle(r0, r1, 1, 3);
+}
+
+#define EW_ISA(stem) ew_ring_##stem##_wasm128
+#define EW_ITEM(degree) ew_ring_moments_##degree##_item_wasm128
+#define EW_DIVIDE ew_ring_divide_wasm128
+#define EW_VECTOR v128_t
+#define EW_ATTRIBUTE EW_ATTRIBUTE_WASM128
+#define EW_ROWS 2
+#define EW_STARTS(s) { EW_BYTES(s[0]), EW_BYTES(s[1]) }
+#define EW_COUNTS v128_t
+#define EW_OVER(s) wasm_i32x4_sub(wasm_v128_load64_zero(s + 1), \
+	wasm_i32x4_add(wasm_v128_load64_zero(s), wasm_i32x4_make(3, 3, 0, 0)))
+#define EW_SAME(n, m) (wasm_i32x4_extract_lane(n, 1) == (m))
+#define EW_MOST(n) ew_ring_most_wasm128(n)
+#define EW_LENGTHS(n) wasm_f64x2_convert_low_i32x4(n)
+#define EW_COLUMNS 2
+#define EW_MORE(X)
+#define EW_LOAD(p) wasm_v128_load(p)
+#define EW_STORE(p, v) wasm_v128_store(p, v)
+#define EW_STORE_WIDE(p, v) EW_STORE(p, v)
+#define EW_SPLAT(a) wasm_f64x2_splat(a)
+#define EW_ADD(a, b) wasm_f64x2_add(a, b)
+#define EW_SUB(a, b) wasm_f64x2_sub(a, b)
+#define EW_SELECT(length, c, v, first) wasm_v128_bitselect(v, first, wasm_f64x2_gt(length, c))
+#define EW_EVEN(a, b) wasm_i64x2_shuffle(a, b, 0, 2)
+#define EW_IS_FLOAT 0
+#include "edgewise_columns_template.h"
+#undef EW_IS_FLOAT
+#endif
+
+#ifdef EW_HAS_FLOAT
+EW_INLINE void ew_ring_block_wasm128f(const float *from, const size_t *start, v128_t column[4])
+{
+	const v128_t r0 = wasm_v128_load(EW_FLOATS(start[0]));
+	const v128_t r1 = wasm_v128_load(EW_FLOATS(start[1]));
+	const v128_t r2 = wasm_v128_load(EW_FLOATS(start[2]));
+	const v128_t r3 = wasm_v128_load(EW_FLOATS(start[3]));
+	const v128_t low01 = wasm_i32x4_shuffle(r0, r1, 0, 4, 1, 5);
+	const v128_t high01 = wasm_i32x4_shuffle(r0, r1, 2, 6, 3, 7);
+	const v128_t low23 = wasm_i32x4_shuffle(r2, r3, 0, 4, 1, 5);
+	const v128_t high23 = wasm_i32x4_shuffle(r2, r3, 2, 6, 3, 7);
+	column[0] = wasm_i64x2_shuffle(low01, low23, 0, 2);
+	column[1] = wasm_i64x2_shuffle(low01, low23, 1, 3);
+	column[2] = wasm_i64x2_shuffle(high01, high23, 0, 2);
+	column[3] = wasm_i64x2_shuffle(high01, high23, 1, 3);
+}
+
+#define EW_ISA(stem) ew_ring_##stem##_wasm128f
+#define EW_ITEM(degree) ew_ring_moments_##degree##_item_wasm128f
+#define EW_DIVIDE ew_ring_divide_wasm128
+#define EW_VECTOR v128_t
+#define EW_ATTRIBUTE EW_ATTRIBUTE_WASM128
+#define EW_ROWS 4
+#define EW_STARTS(s) { EW_BYTES(s[0]), EW_BYTES(s[1]), EW_BYTES(s[2]), EW_BYTES(s[3]) }
+#define EW_COUNTS v128_t
+#define EW_OVER(s) wasm_i32x4_sub(wasm_v128_load(s + 1), \
+	wasm_i32x4_add(wasm_v128_load(s), wasm_i32x4_splat(3)))
+#define EW_SAME(n, m) wasm_i32x4_all_true(wasm_i32x4_eq(n, wasm_i32x4_splat(m)))
+#define EW_MOST(n) ew_ring_most_wasm128(n)
+#define EW_LENGTHS(n) wasm_f32x4_convert_i32x4(n)
+#define EW_COLUMNS 4
+#define EW_MORE(X) X(2) X(3)
+#define EW_LOAD(p) wasm_v128_load(p)
+#define EW_STORE(p, v) wasm_v128_store(p, v)
+#define EW_STORE_WIDE(p, v) \
+	do { \
+		wasm_v128_store(p, wasm_f64x2_promote_low_f32x4(v)); \
+		wasm_v128_store((p) + 2, wasm_f64x2_promote_low_f32x4( \
+			wasm_i64x2_shuffle(v, v, 1, 1))); \
+	} while (0)
+#define EW_SPLAT(a) wasm_f32x4_splat(a)
+#define EW_ADD(a, b) wasm_f32x4_add(a, b)
+#define EW_SUB(a, b) wasm_f32x4_sub(a, b)
+#define EW_SELECT(length, c, v, first) wasm_v128_bitselect(v, first, wasm_f32x4_gt(length, c))
+#define EW_EVEN(a, b) wasm_i32x4_shuffle(a, b, 0, 2, 4, 6)
 #define EW_IS_FLOAT 1
 #include "edgewise_columns_template.h"
 #undef EW_IS_FLOAT

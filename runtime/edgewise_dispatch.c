@@ -72,7 +72,8 @@ static unsigned ew_cpu_detect(void)
 #else
 static unsigned ew_cpu_detect(void)
 {
-	return EW_PORTABLE | (EW_BUILD_FMA ? EW_FMA : 0) | (EW_BUILD_NEON ? EW_NEON : 0);
+	return EW_PORTABLE | (EW_BUILD_FMA ? EW_FMA : 0) | (EW_BUILD_NEON ? EW_NEON : 0)
+		| (EW_BUILD_WASM128 ? EW_WASM128 : 0);
 }
 #endif
 

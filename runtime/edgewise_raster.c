@@ -467,7 +467,7 @@ EW_SWEEP(bytes, unsigned char, ew_raster_byte)
 #undef EW_SWEEP
 #undef EW_FLOAT
 
-#if EW_BUILD_AVX2 || EW_BUILD_AVX512 || EW_BUILD_NEON
+#if EW_BUILD_AVX2 || EW_BUILD_AVX512 || EW_BUILD_NEON || EW_BUILD_WASM128
 /* The beginning of a row of pixels; size is less than 64. */
 EW_INLINE void ew_raster_put(void *to, const void *from, size_t size)
 {

@@ -108,6 +108,43 @@ EW_INLINE void ew_raster_put_bytes_neon(unsigned char *to, const int32x4_t *sum)
 #include "edgewise_raster_sweep_template.h"
 #endif
 
+#if EW_BUILD_WASM128
+#include <wasm_simd128.h>
+
+EW_INLINE v128_t ew_raster_255_wasm128(v128_t sum)
+{
+	const v128_t size = wasm_u32x4_min(wasm_i32x4_abs(sum), wasm_i32x4_splat(EW_ONE));
+	return wasm_u32x4_shr(wasm_i32x4_add(wasm_i32x4_mul(size, wasm_i32x4_splat(255)),
+		wasm_i32x4_splat(EW_ONE / 2)), EW_GRID);
+}
+
+EW_INLINE void ew_raster_put_bytes_wasm128(unsigned char *to, const v128_t *sum)
+{
+	wasm_v128_store(to, wasm_u8x16_narrow_i16x8(
+		wasm_u16x8_narrow_i32x4(ew_raster_255_wasm128(sum[0]), ew_raster_255_wasm128(sum[1])),
+		wasm_u16x8_narrow_i32x4(ew_raster_255_wasm128(sum[2]),
+			ew_raster_255_wasm128(sum[3]))));
+}
+
+#define EW_ISA(stem) ew_raster_##stem##_wasm128
+#define EW_ATTRIBUTE EW_ATTRIBUTE_WASM128
+#define EW_INTS v128_t
+#define EW_INT_LANES 4
+#define EW_GROUP_INTS 4
+#define EW_EACH_OF_STRIP(X) X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) \
+	X(13) X(14) X(15)
+#define EW_ZERO_INTS wasm_i32x4_splat(0)
+#define EW_LOAD_INTS(p) wasm_v128_load(p)
+#define EW_STORE_INTS(p, v) wasm_v128_store(p, v)
+#define EW_ADD_INTS(a, b) wasm_i32x4_add(a, b)
+#define EW_FLOATS_TYPE v128_t
+#define EW_SPLAT_FLOAT(a) wasm_f32x4_splat(a)
+#define EW_PUT_FLOATS(p, v) \
+	wasm_v128_store(p, wasm_f32x4_mul(wasm_f32x4_convert_i32x4(v), unit))
+#define EW_PUT_BYTES(p, v) ew_raster_put_bytes_wasm128(p, v)
+#include "edgewise_raster_sweep_template.h"
+#endif
+
 #define EW_WAYS(name, lanes, edges, sweep) \
 	static const ew_raster_ways ew_raster_ways_##name = { \
 		ew_raster_round_##lanes, ew_raster_roundf_##lanes, ew_raster_edges_##edges, \
@@ -124,6 +161,9 @@ EW_WAYS(avx512, avx2, avx2, avx512)
 #endif
 #if EW_BUILD_NEON
 EW_WAYS(neon, scalar, scalar, neon)
+#endif
+#if EW_BUILD_WASM128
+EW_WAYS(wasm128, scalar, scalar, wasm128)
 #endif
 #undef EW_WAYS
 

@@ -1,6 +1,8 @@
 #!/bin/sh
 # cli.sh - the command line of gen: every option and, from files beside it, families and kinds of
-# edges (cli_families.sh), every error (cli_errors.sh), filter files (cli_filters.sh).
+# edges (cli_families.sh), every error (cli_errors.sh), filter files (cli_filters.sh). What
+# emissions bring into a program is asked by symbols.sh, and two of them in one program are a way
+# of vendor.sh.
 #
 #     sh tests/cli.sh [GEN]        (default: build/gen; CC and CXX choose the compilers)
 #
@@ -228,9 +230,9 @@ targets() {
 	diff -r with both
 	[ -f both/edgewise_moments_fma.c ]
 	find both -name '*avx*' | refute grep .
-	gen --max-degree 1 --targets portable,fma,avx2,avx512,neon --out all
+	gen --max-degree 1 --targets portable,fma,avx2,avx512,neon,wasm128 --out all
 	gen --max-degree 1 --check --out all
-	find d -name '*fma*' -o -name '*avx*' -o -name '*neon*' | refute grep .
+	find d -name '*fma*' -o -name '*avx*' -o -name '*neon*' -o -name '*wasm*' | refute grep .
 	cat >main.c <<-END
 		#include "edgewise.h"
 		int main(void) { return ew_targets() != EW_PORTABLE; }
@@ -245,9 +247,6 @@ prefix() {
 	find foo -type f ! -name 'foo*' | refute grep .
 	grep -rnE '(^|[^A-Za-z0-9_])(ew|EW)(_|[^A-Za-z0-9]|$)' foo | refute grep .
 	refute grep -rniE 'edgewise' foo
-	gen --prefix foo --max-degree 2 --polynomial soft=x*y --targets portable --out small
-	build small
-	symbols alone | refute grep -v '^foo_'
 	gen --prefix foo --single-header foo.h
 	refute grep -niE '(^|[^a-z0-9_])ew_|edgewise' foo.h
 }
@@ -300,17 +299,6 @@ area_of_any_scheme() {
 	done
 }
 check area_of_any_scheme
-
-two_prefixes_in_one_program() {
-	gen --prefix foo --max-degree 2 --families moments --targets portable,avx2 --out foo
-	gen --prefix bar --max-degree 1 --edges quad --targets portable --out bar
-	area_program foo.h foo_ | sed 's/main/foo/' >foo.c
-	area_program bar.h bar_ | sed 's/main/bar/' >bar.c
-	echo 'int foo(void); int bar(void); int main(void) { return foo() || bar(); }' >main.c
-	$CC -I foo -I bar -o main main.c foo.c bar.c foo/*.c bar/*.c -lm
-	./main
-}
-check two_prefixes_in_one_program
 
 # ---- where to ----
 

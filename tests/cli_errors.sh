@@ -16,6 +16,8 @@ make_guard() {
 		gen --max-degree 1 --precision double --quiet
 		gen --max-degree 1 --precision double --quiet --out foreign
 		echo mine | tee file notes.txt generated/notes.c >foreign/edgewise_linef.c
+		printf 'filter one\nseparable even\npiece 0 1/2 : 1\n' >one.filter
+		ln one.filter linked
 	)
 	age "$guard"
 	snapshot "$guard" >"$work/guard.before"
@@ -168,6 +170,12 @@ for option in '--manifest new --depfile new' '--single-header new --manifest new
 	'--manifest generated/edgewise.h' '--depfile new --single-header ./new'; do
 	# shellcheck disable=SC2086
 	expect_error "one file for two: $option" 2 "${option##* }" $option
+done
+for option in '--single-header one.filter' '--depfile ./one.filter' '--manifest linked' \
+	'--dry-run --single-header folder/../one.filter'; do
+	# shellcheck disable=SC2086
+	expect_error "a source written over: $option" 2 "would overwrite one.filter, which is read" \
+		--filter one.filter $option
 done
 
 # ---- degrees, monomials, names ----

@@ -12,8 +12,9 @@
 # against the promised bars. Scalar targets spell operations as C operators, vector targets as
 # intrinsics. Loads, stores and loop headers are not operations, nor is the sign inside a constant
 # or before an operand. A minimum, a maximum or a choice costs an addition, rounding to a multiple
-# two. An absolute value costs nothing; there must be as many of them as in the kernel of target
-# fma. What ew_ring_lost takes is counted in the list, where it stands.
+# two. An absolute value costs nothing; there must be as many of them as in the kernel of the scalar
+# target that runs the same program: fma, or portable for wasm128. What ew_ring_lost takes is counted
+# in the list, where it stands.
 set -u
 build=${1:-build}
 . "$(dirname "$0")/verdict.sh"
@@ -69,13 +70,14 @@ function count_scalar(text) {
 }
 
 function count_vector(text) {
-	absolute += gsub(/EW_ABS_mm|vabsq_f/, "(", text)
-	divide += gsub(/_div_p|EW_SQRT_mm|v(div|sqrt)q_/, "(", text)
-	add += gsub(/EW_(MAX|MIN|CHOOSE|EXPONENT|FRACTION)_/, "(", text)
+	lost = gsub(/ew_ring_lost_f/, "(", text)
+	absolute += gsub(/EW_ABS_mm|vabsq_f|wasm_f[0-9x]*_abs/, "(", text)
+	divide += gsub(/_div_p|EW_SQRT_mm|v(div|sqrt)q_|wasm_f[0-9x]*_(div|sqrt)/, "(", text)
+	add += gsub(/EW_(MAX|MIN|CHOOSE|EXPONENT|FRACTION)_|wasm_f[0-9x]*_p(min|max)/, "(", text)
 	fma += gsub(/_fn?m(add|sub)_p|vfm[as]q_f/, "(", text)
-	mul += gsub(/_mul_p|vmulq_/, "(", text)
-	add += gsub(/_(add|sub)_p|v(add|sub)q_/, "(", text)
-	stray += gsub(/[]A-Za-z0-9_)] [-+*\/] |_(min|max)_|v(max|min)q/, "(", text)
+	mul += gsub(/_mul_p|vmulq_|wasm_f[0-9x]*_mul/, "(", text) + lost * lost_mul
+	add += gsub(/_(add|sub)_p|v(add|sub)q_|wasm_f[0-9x]*_(add|sub)/, "(", text) + lost * lost_add
+	stray += gsub(/[]A-Za-z0-9_)] [-+*\/] |_(min|max)[_(]|v(max|min)q/, "(", text)
 }
 
 function count(body, vector) {
@@ -87,16 +89,20 @@ function count(body, vector) {
 	gsub(/out\[[^]]*\]/, "out", body)
 	statements = split(body, statement, ";")
 	for (at = 1; at <= statements; at++) {
-		if (vector && statement[at] !~ /loadu|storeu|vld1q|vst1q|pad|size_t|mask|EW_HIDE/)
+		if (vector && statement[at] !~ /loadu|storeu|vld1q|vst1q|v128_(load|store)|pad|size_t|mask|EW_HIDE/)
 			count_vector(statement[at])
 		else if (!vector && statement[at] !~ / = ([xy]\[i|\*\([xy] )/)
 			count_scalar(statement[at])
 	}
 }
 
+# The scalar target that runs the program of this one.
+function scalar_of(target) { return target ~ /portable|wasm128/ ? "portable" : "fma" }
+
 # One loop of a ring or deposit, which takes `items` at a time.
 function check_loop(kernel, ring, target) {
 	vector = target !~ /portable|fma/
+	scalar = scalar_of(target)
 	count(body, vector)
 	where = kernel ", loop " ++loops
 	if (!(ring in rings))
@@ -105,14 +111,15 @@ function check_loop(kernel, ring, target) {
 		fail(where, mul " mul " fma " fma " add " add " absolute " absolute " stray \
 			" stray in " items " items")
 	mul /= items; fma /= items; add /= items; divide /= items; absolute /= items
-	if (target == "fma")
-		absolutes[ring] = absolute
+	if (!vector)
+		absolutes[ring, target] = absolute
 	expect(where, "the comment", comment, pipes() " and " divide)
-	expect(where, "the manifest", json_cost(rings[ring], vector ? "fma" : target), cost())
+	expect(where, "the manifest", json_cost(rings[ring], scalar), cost())
 	expect(where, "the list", listed[kernel], pipes())
 	if (vector)
-		expect(where, "target fma", absolutes[ring] " absolute", absolute " absolute")
-	if (target != "portable" && ring in most_pipe &&
+		expect(where, "target " scalar, absolutes[ring, scalar] " absolute",
+			absolute " absolute")
+	if (scalar == "fma" && ring in most_pipe &&
 	    (mul + fma > most_pipe[ring] || add > most_add[ring]))
 		fail(where, mul + fma " + " add " operations, promised " \
 			most_pipe[ring] " + " most_add[ring])
@@ -129,11 +136,11 @@ function close_kernel() {
 }
 
 # An item alone, for vectors that are in registers already.
-function check_item(kernel, ring) {
+function check_item(kernel, ring, target) {
 	count(body, 1)
 	if (stray || absolute)
 		fail(kernel, absolute " absolute " stray " stray")
-	expect(kernel, "the manifest", json_cost(rings[ring], "fma"), cost())
+	expect(kernel, "the manifest", json_cost(rings[ring], scalar_of(target)), cost())
 	items_seen++
 	all_loops++
 }
@@ -160,12 +167,12 @@ function close_file() {
 /"ring": / {
 	match($0, /"ring": "[^"]*/)
 	rings[substr($0, RSTART + 9, RLENGTH - 9)] = $0
-	expected += 10
+	expected += 12
 }
 /"deposit": / {
 	match($0, /"deposit": "[^"]*/)
 	rings[substr($0, RSTART + 12, RLENGTH - 12)] = $0
-	expected += 5
+	expected += 6
 }
 /"function": / {
 	match($0, /ew_(line|quad|cubic)_[^"]*/)
@@ -180,7 +187,7 @@ FNR == 1 {
 	close_file()
 	file = FILENAME ~ /\.c$|_items_/ ? FILENAME : ""
 	sub(/.*\//, "", file)
-	is_float = file ~ /(linef|f_(portable|fma|avx2|avx512|neon))[0-9_]*\.c$/
+	is_float = file ~ /(linef|f_(portable|fma|avx2|avx512|neon|wasm128))[0-9_]*\.c$/
 }
 /^ \* Cost( per item| per piece)?: / {
 	split($0, part, /(: | mul| or fma|, | add)+/)
@@ -201,6 +208,8 @@ FNR == 1 {
 	item = substr($0, RSTART, RLENGTH)
 	ring = item
 	gsub(/^ew_ring_|_item_.*/, "", ring)
+	target = item
+	sub(/.*_item_/, "", target)
 	inside = 4
 	body = ""
 }
@@ -250,7 +259,7 @@ inside == 3 && /^}/ {
 }
 inside == 4 && /^}/ {
 	sub(/^[^{]*[{]/, "", body)
-	check_item(item, ring)
+	check_item(item, ring, target)
 	inside = 0
 }
 /^}/ && file && kernel ~ /^ew_(ring|deposit)/ { close_kernel() }
@@ -260,7 +269,7 @@ END {
 	close_file()
 	if (seen != expected || seen == 0)
 		fail("all kernels", seen " found, the manifest has " expected \
-			" in two precisions and five targets, deposits in one")
+			" in two precisions and six targets, deposits in one")
 	print passed + 0 " passed, " failed + 0 " failed"
 	exit failed > 0
 }
@@ -270,7 +279,7 @@ END
 counts() {
 	folder=$1
 	set -- "$folder"/edgewise_line*.c
-	for target in portable fma avx2 avx512 neon; do
+	for target in portable fma avx2 avx512 neon wasm128; do
 		for group in moments curves distance coverage filters deposit trust integrands; do
 			set -- "$@" "$folder/edgewise_$group"*"_$target"*.c
 		done
@@ -304,6 +313,8 @@ notices ew_ring_magnitudes_0f_avx2 edgewise_trustf_avx2.c \
 	'1,/EW_ABS/s/EW_ABS_mm256_ps(\([a-z0-9]*\))/\1/'
 notices ew_ring_coveragef_neon edgewise_coveragef_neon.c \
 	'1,/EW_MIN/s/EW_MIN_f32(t1, u1)/t1/'
+notices ew_ring_compensated_wasm128 edgewise_trust_wasm128.c \
+	'/compensated_wasm128(/,/lost_f/s/ew_ring_lost_f64x2(\([a-z0-9]*\), .*)/\1/'
 notices ew_ring_mitchell_avx2 edgewise_filters_avx2_2.c \
 	'/ring_mitchell_avx2(/,/_max_\|EW_MAX/s/EW_MAX_mm256_pd(\([a-z0-9]*\), .*)/\1/'
 notices ew_deposit_tent_portable edgewise_deposit_portable.c \

@@ -5,10 +5,11 @@
 #     sh tests/cross.sh [BUILD] accept       takes this machine's results as right
 #
 # tests/hash.c and BUILD/emitted are compiled for each machine by its cross compiler, linked
-# statically and run under qemu-user, which does floating point by itself in software. What each
-# emulated CPU finds among the targets is asserted, and its hashes must be the committed ones:
-# one for `portable`, one, `fused`, for every target that has fused operations, one for the edges
-# and one for images of the box, whatever the target.
+# statically and run under qemu-user, which does floating point by itself in software, or, for
+# WebAssembly, in node. What each machine finds among the targets is asserted, and its hashes must be
+# the committed ones: one for `portable` and wasm128, which have no fused operations, one, `fused`,
+# for every target that has them, one for the edges and one for images of the box, whatever the
+# target.
 # On s390x gcc evaluates float expressions in double in its ISO modes (FLT_EVAL_METHOD 1), which
 # keeps the bounds but not the bits of float results; -fexcess-precision=fast keeps both. x87
 # registers (FLT_EVAL_METHOD 2) break the bounds: every emitted file must refuse them, and nothing
@@ -22,21 +23,22 @@ hashes=$tests/hashes.txt
 STRICT="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wundef -Wdouble-promotion -Wcast-qual"
 STRICT="$STRICT -Werror"
 
-# links COMPILER: it makes programs, so it has a C library
+# links COMPILER FLAGS...: it makes programs, so it has a C library
 links() {
 	printf '#include <math.h>\n#include <stdio.h>\n%s\n' \
 		'int main(int n, char **p) { (void)p; return printf("%g", fma(n, n, n)) < 0; }' \
 		>"$work/probe.c"
-	"$1" -static -o "$work/probe" "$work/probe.c" -lm >/dev/null 2>&1
+	"$@" -static -o "$work/probe" "$work/probe.c" -lm >/dev/null 2>&1
 }
 
-# program COMPILER FLAGS...: sets $folder, which then holds the program `hash`, or `log` alone
+# program COMPILER FLAGS...: sets $folder, which then holds the program `hash.exe` (compilers for
+# Windows insist on that name), or `log` alone
 program() {
 	folder=$work/$(echo "$*" | tr -d ' /')
 	[ -d "$folder" ] && return
 	mkdir "$folder" || exit 1
 	( cd "$folder" && "$@" $STRICT -I"$emitted" -c "$emitted"/*.c "$tests/hash.c" &&
-		"$@" -static -o hash ./*.o -lm ) >"$folder/log" 2>&1 || rm -f "$folder/hash"
+		"$@" -static -o hash.exe ./*.o -lm ) >"$folder/log" 2>&1 || rm -f "$folder/hash.exe"
 	rm -f "$folder"/*.o
 }
 
@@ -47,20 +49,24 @@ results() {
 	for tool in ${emulator%% *} "$1"; do
 		has "$tool" || { skip "$name" "$tool is not installed"; return 1; }
 	done
-	links "$1" || { skip "$name" "$1 has no static C library"; return 1; }
+	links "$@" || { skip "$name" "$1 has no static C library for it"; return 1; }
 	program "$@"
-	if [ ! -x "$folder/hash" ]; then
+	if [ ! -x "$folder/hash.exe" ]; then
 		verdict "$name compiles" "$(grep -E -m 1 'error|warning|undefined|cannot find' \
 			"$folder/log" || tail -n 1 "$folder/log")"
 		return 1
-	elif ! $emulator "$folder/hash" >"$work/$name" 2>"$work/log"; then
+	elif ! $emulator "$folder/hash.exe" >"$work/$name" 2>"$work/log"; then
 		verdict "$name runs" "$(tail -n 1 "$work/log")"
 		return 1
 	fi
 }
 
 class_of() {
-	case $1 in portable | edges | box) echo "$1" ;; *) echo fused ;; esac
+	case $1 in
+	portable | edges | box) echo "$1" ;;
+	wasm128) echo portable ;;
+	*) echo fused ;;
+	esac
 }
 
 # compare RESULTS HASHES: one line for each difference
@@ -159,6 +165,22 @@ test_machines() {
 	machine i686 'portable' qemu-i386 i686-linux-gnu-gcc -std=c99 -O2 -msse2 -mfpmath=sse
 	machine s390x 'portable fma' qemu-s390x s390x-linux-gnu-gcc -std=c99 -O2 \
 		-fexcess-precision=fast
+	machine wasm32 'portable wasm128' "node --no-warnings $tests/wasi.mjs" \
+		clang --target=wasm32-wasi -msimd128 -std=c99 -O2
+	machine 'wasm32 without simd128' portable "node --no-warnings $tests/wasi.mjs" \
+		clang --target=wasm32-wasi -std=c99 -O2
+}
+
+# windows PROGRAM: on this CPU, whose targets it finds, but with the calling convention, the stack
+# and the C library of Windows. Lines end in CR there.
+windows() {
+	WINEPREFIX=$work/wine WINEDEBUG=-all wine "$1" >"$work/lines" && tr -d '\r' <"$work/lines"
+}
+
+test_windows() {
+	has wine || { skip windows "wine is not installed"; return; }
+	machine windows any windows x86_64-w64-mingw32-gcc -std=c99 -O2
+	[ ! -d "$work/wine" ] || WINEPREFIX=$work/wine wineserver -k -w
 }
 
 # A control: with all committed hashes altered, each line of this machine must be reported.
@@ -198,6 +220,7 @@ if [ "${2:-}" = accept ]; then
 	accept
 else
 	test_machines
+	test_windows
 	test_control
 	test_x87
 fi

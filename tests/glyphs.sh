@@ -7,7 +7,9 @@
 # (glyphs.py); then come the table, the choice of glyphs and the errors of the command line.
 
 . "$(dirname "$0")/verdict.sh"
+. "$tests/example.sh"
 glyphs=$(cd "$1" && pwd)/glyphs
+program=$glyphs
 exact=$(cd "$1" && pwd)/tests/glyphs
 sans=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
 serif=/usr/share/fonts/truetype/dejavu/DejaVuSerif.ttf
@@ -18,15 +20,6 @@ if [ ! -x "$glyphs" ]; then
 	finish
 	exit
 fi
-
-# NAME FILE: counts the verdicts in the output of a program, each under NAME.
-under() {
-	tail -n 1 "$2" | grep -q '^[0-9]* passed, [0-9]* failed$' \
-		|| echo "not ok end: $(tail -n 1 "$2")" >>"$2"
-	sed -n -e "s/^# /# $1: /p" -e "s/^ok /ok $1, /p" -e "s/^not ok /not ok $1, /p" "$2" \
-		>"$work/renamed"
-	replay "$work/renamed"
-}
 
 python=$(python_with fontTools.pens.statisticsPen)
 
@@ -49,25 +42,6 @@ check_font() {
 	PYTHONDONTWRITEBYTECODE=1 "$python" "$tests/glyphs.py" "$2" <"$work/exact" \
 		>"$work/verdicts" 2>&1
 	under "$name beside fontTools" "$work/verdicts"
-}
-
-# NAME STATUS PATTERN ARGUMENTS...: fails so, says so, and prints nothing else.
-expect_error() {
-	name=$1
-	status=$2
-	pattern=$3
-	shift 3
-	problem=
-	got=0
-	"$glyphs" "$@" >"$work/stdout" 2>"$work/stderr" || got=$?
-	if [ $got -ne "$status" ]; then
-		problem="status $got, not $status"
-	elif ! grep -qF -e "$pattern" "$work/stderr"; then
-		problem="no word of '$pattern' in: $(head -n 1 "$work/stderr")"
-	elif [ -s "$work/stdout" ]; then
-		problem="standard output says $(head -n 1 "$work/stdout")"
-	fi
-	verdict "$name" "$problem"
 }
 
 # NAME WANTED ARGUMENTS...: the last words of the lines but the first, which are glyph names.

@@ -8,8 +8,10 @@
 # grammar of paths, the files, and the errors of the command line.
 
 . "$(dirname "$0")/verdict.sh"
+. "$tests/example.sh"
 build=$(cd "$1" && pwd)
 render=$build/render
+program=$render
 custom=$build/filters/render
 plot=$build/plot
 sans=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
@@ -279,19 +281,9 @@ check_plots() {
 # NAME STATUS PATTERN ARGUMENTS...: fails so, says so, and writes no picture.
 expect_error() {
 	name=$1
-	status=$2
-	pattern=$3
-	shift 3
-	problem=
-	got=0
-	"$render" "$@" >"$work/stdout" 2>"$work/stderr" </dev/null || got=$?
-	if [ $got -ne "$status" ]; then
-		problem="status $got, not $status: $(head -n 1 "$work/stderr")"
-	elif ! grep -qF -e "$pattern" "$work/stderr"; then
-		problem="no word of '$pattern' in: $(head -n 1 "$work/stderr")"
-	elif [ -s "$work/stdout" ]; then
-		problem="standard output says $(head -n 1 "$work/stdout")"
-	elif [ -n "$(find "$work" -name 'no*.png*')" ]; then
+	shift
+	try_error "$@"
+	if [ -z "$problem" ] && [ -n "$(find "$work" -name 'no*.png*')" ]; then
 		problem="it has written $(find "$work" -name 'no*.png*')"
 		rm -f "$work"/no*.png*
 	fi

@@ -12,18 +12,15 @@
  * of phase at most (3 cycles) it gets all but rounding. The layout depends on the filters alone;
  * colours follow the reader's light or dark scheme. */
 #include "gen.h"
+#include "svg.h"
 
-#include <errno.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
-#include <unistd.h>
 
 #define PI 3.14159265358979323846
 
 enum { MAX_FILTERS = 3, NODES = 32, STEPS = 320, POWERS = MAX_DEGREE + 1 };
-enum { WIDE = 760, HIGH = 330, TOP = 70, BOTTOM = 280, LOWEST = -80, HIGHEST_FREQUENCY = 2 };
+enum { WIDE = 800, HIGH = 372, TOP = 100, BOTTOM = 316, LOWEST = -80, HIGHEST_FREQUENCY = 2 };
 
 typedef struct {
 	double x0, x1, y0, y1, coefficient[POWERS][POWERS];
@@ -31,20 +28,12 @@ typedef struct {
 } Cell;
 typedef struct { Filter filter; Cell *cell; } Subject;
 typedef struct { double re, im; } Complex;
-typedef struct { double left, right, x0, x1, y0, y1; } Panel;       /* pixels; range of the axes */
 typedef double Curve(const Subject *subject, double at, double cosine, double sine);
 
-static const char style[] =
-	"<style>\n"
-	".page{fill:#ffffff}.ink{fill:#1f2328}.soft{fill:#59636e}\n"
-	".grid{stroke:#d1d9e0;stroke-width:1}.limit{stroke:#59636e;stroke-width:1.5}\n"
-	".c{fill:none;stroke-width:1.6;stroke-linejoin:round}.d{stroke-dasharray:5 4}\n"
-	".c0{stroke:#0b63c5;stroke-width:2.4}.c1{stroke:#b3261e}.c2{stroke:#1a7f37}\n"
-	"text{font:13px system-ui,sans-serif}.title{font-size:17px;font-weight:600}\n"
-	"@media (prefers-color-scheme:dark){.page{fill:#0d1117}.ink{fill:#f0f6fc}"
-	".soft{fill:#9198a1}\n.grid{stroke:#3d444d}.limit{stroke:#9198a1}\n"
-	".c0{stroke:#58a6ff}.c1{stroke:#ff7b72}.c2{stroke:#3fb950}}\n"
-	"</style>\n";
+static const struct { const char *line, *diagonal, *name; } looks[MAX_FILTERS] = {
+	{ "c0 bold", "c0 dash", "c0 name" }, { "c1", "c1 thin dash", "c1 name" },
+	{ "c2", "c2 thin dash", "c2 name" },
+};
 
 /* ---- filters in floating point ---- */
 
@@ -184,140 +173,90 @@ static double response_along(const Subject *subject, double at, double cosine, d
 
 /* ---- drawing ---- */
 
-static double place_x(const Panel *panel, double x)
+/* One of the upright lines may be a limit. */
+static void write_grid(Svg *svg, const SvgPanel *panel, double step_x, double step_y, double limit)
 {
-	return panel->left + (panel->right - panel->left) * (x - panel->x0) / (panel->x1 - panel->x0);
+	for (int i = (int)ceil(panel->x.first / step_x); i * step_x <= panel->x.last; ++i)
+		svg_tick_x(svg, panel, i * step_x == limit ? "limit" : "grid", i * step_x, "%g",
+			i * step_x);
+	for (int i = (int)ceil(panel->y.first / step_y - 1e-9);
+			i * step_y <= panel->y.last + 1e-9; ++i)
+		svg_tick_y(svg, panel, "grid", i * step_y, "%g", i * step_y);
 }
 
-static double place_y(const Panel *panel, double y)
-{
-	return BOTTOM - (BOTTOM - TOP) * (y - panel->y0) / (panel->y1 - panel->y0);
-}
-
-__attribute__((format(printf, 6, 7)))
-static void write_text(Text *out, const char *kind, double x, double y, const char *anchor,
-	const char *pattern, ...)
-{
-	char text[200];
-	va_list arguments;
-	va_start(arguments, pattern);
-	vsnprintf(text, sizeof text, pattern, arguments);
-	va_end(arguments);
-	text_add(out, "<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\">%s</text>\n", kind,
-		x, y, anchor, text);
-}
-
-static void write_grid(Text *out, const Panel *panel, double step_x, double step_y,
-	const char *title)
-{
-	for (int i = (int)ceil(panel->x0 / step_x); i * step_x <= panel->x1; ++i) {
-		const double x = place_x(panel, i * step_x);
-		text_add(out, "<path class=\"grid\" d=\"M%.1f %dV%d\"/>\n", x, TOP, BOTTOM);
-		write_text(out, "soft", x, BOTTOM + 18, "middle", "%g", i * step_x);
-	}
-	for (int i = (int)ceil(panel->y0 / step_y - 1e-9); i * step_y <= panel->y1 + 1e-9; ++i) {
-		const double y = place_y(panel, i * step_y);
-		text_add(out, "<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/>\n", panel->left, y,
-			panel->right);
-		write_text(out, "soft", panel->left - 6, y + 4, "end", "%g", i * step_y);
-	}
-	write_text(out, "ink", (panel->left + panel->right) / 2, BOTTOM + 38, "middle", "%s", title);
-}
-
-static void write_curve(Text *out, const Panel *panel, const Subject *subject, int index,
+static void write_curve(Svg *svg, const SvgPanel *panel, const Subject *subject, int index,
 	Curve *curve, int diagonal)
 {
 	const double along = diagonal ? sqrt(0.5) : 1, across = diagonal ? along : 0;
-	text_add(out, "<path clip-path=\"url(#%s)\" class=\"c c%d%s\" d=\"",
-		curve == response_along ? "response" : "values", index, diagonal ? " d" : "");
+	double x[STEPS + 1], y[STEPS + 1];
 	for (int i = 0; i <= STEPS; ++i) {
-		const double at = panel->x0 + (panel->x1 - panel->x0) * i / STEPS;
-		text_add(out, "%s%.1f %.1f", i ? "L" : "M", place_x(panel, at),
-			place_y(panel, curve(subject, at, along, across)));
+		x[i] = panel->x.first + (panel->x.last - panel->x.first) * i / STEPS;
+		y[i] = curve(subject, x[i], along, across);
 	}
-	text_add(out, "\"/>\n");
-}
-
-static void write_legend(Text *out, const Subject *subject, int count, int bivariate)
-{
-	const double x = 580;
-	for (int i = 0; i < count; ++i) {
-		const double y = TOP + 16 + 20 * i;
-		text_add(out, "<path class=\"c c%d\" d=\"M%.1f %.1fh24\"/>\n", i, x, y - 4);
-		write_text(out, "ink", x + 32, y, "start", "%s%s", subject[i].filter.name,
-			subject[i].filter.builtin ? ", built in" : "");
-	}
-	if (bivariate)
-		write_text(out, "soft", x, TOP + 16 + 20 * count, "start", "dashed: diagonally");
+	svg_line(svg, panel, diagonal ? looks[index].diagonal : looks[index].line, x, y, STEPS + 1);
 }
 
 /* The axis of values: from the lowest to the highest, on whole steps. */
-static double choose_values(Panel *panel, const Subject *subject, int count, Curve *value)
+static double choose_values(SvgPanel *panel, const Subject *subject, int count, Curve *value)
 {
 	const double reach = value == value_in_plane ? sqrt(2) : 1;
 	double least = 0, most = 0;
 	for (int i = 0; i < count; ++i) {
 		const Filter *filter = &subject[i].filter;
-		panel->x0 = fmin(panel->x0, reach * real(filter->first_x) - 0.25);
-		panel->x1 = fmax(panel->x1, reach * real(filter->last_x) + 0.25);
-		for (double x = panel->x0; x <= panel->x1; x += 1 / 64.0) {
+		panel->x.first = fmin(panel->x.first, reach * real(filter->first_x) - 0.25);
+		panel->x.last = fmax(panel->x.last, reach * real(filter->last_x) + 0.25);
+		for (double x = panel->x.first; x <= panel->x.last; x += 1 / 64.0) {
 			least = fmin(least, value(&subject[i], x, 1, 0));
 			most = fmax(most, value(&subject[i], x, 1, 0));
 		}
 	}
 	const double step = most > 0.6 ? 0.2 : most > 0.3 ? 0.1 : 0.05;
-	panel->y0 = step * floor(least / step);
-	panel->y1 = step * ceil(most / step);
+	panel->y.first = step * floor(least / step);
+	panel->y.last = step * ceil(most / step);
 	return step;
 }
 
-static void write_plot(Text *out, const Subject *subject, int count)
+static void write_names(Svg *svg, const Subject *subject, int count, int bivariate)
 {
-	Panel values = { 60, 350, 0, 0, 0, 0 };
-	const Panel response = { 440, 740, 0, HIGHEST_FREQUENCY, LOWEST, 5 };
+	SvgLabel label[MAX_FILTERS + 1] = { { 0 } };
+	for (int i = 0; i < count; ++i) {
+		label[i].kind = looks[i].name;
+		snprintf(label[i].text, sizeof label[i].text, "%s%s", subject[i].filter.name,
+			subject[i].filter.builtin ? ", built in" : "");
+	}
+	label[count] = (SvgLabel){ 0, "soft", "dashed: along a diagonal" };
+	svg_legend(svg, label, count + bivariate);
+}
+
+static void write_plot(Svg *svg, const Subject *subject, int count, const char *title)
+{
+	SvgPanel values = { 56, 372, TOP, BOTTOM, { 0, 0, 0 }, { 0, 0, 0 } };
+	const SvgPanel response = { 460, 776, TOP, BOTTOM, { 0, HIGHEST_FREQUENCY, 0 },
+		{ LOWEST, 5, 0 } };
 	const int bivariate = !subject->filter.separable;
 	Curve *value = bivariate ? value_in_plane : value_on_axis;
 	const double step = choose_values(&values, subject, count, value);
-	text_add(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" "
-		"height=\"%d\" role=\"img\">\n<title>The filter %s and its frequency response</title>\n"
-		"%s<clipPath id=\"values\"><path d=\"M60 %dH350V%dH60z\"/></clipPath>\n"
-		"<clipPath id=\"response\"><path d=\"M440 %dH740V%dH440z\"/></clipPath>\n"
-		"<rect class=\"page\" width=\"%d\" height=\"%d\"/>\n", WIDE, HIGH, WIDE, HIGH,
-		subject->filter.name, style, TOP, BOTTOM, TOP, BOTTOM, WIDE, HIGH);
-	write_text(out, "ink title", 60, 28, "start", "%s", subject->filter.name);
-	write_text(out, "soft", 60, TOP - 12, "start", "%s", bivariate ? "f(x, y) over the distance"
-		: "k(x)");
-	write_text(out, "soft", 440, TOP - 12, "start", "response in dB");
-	write_grid(out, &values, 1, step, "pixels from the centre");
-	write_grid(out, &response, 0.5, 20, "cycles per pixel; beyond 0.5 are aliases");
-	text_add(out, "<path class=\"limit\" d=\"M%.1f %dV%d\"/>\n", place_x(&response, 0.5), TOP,
-		BOTTOM);
+	svg_headline(svg, title, NULL);
+	write_names(svg, subject, count, bivariate);
+	svg_panel(svg, &values);
+	svg_panel(svg, &response);
+	write_grid(svg, &values, 1, step, (double)NAN);
+	write_grid(svg, &response, 0.5, 20, 0.5);
+	svg_axis_titles(svg, &values, "pixels from the centre", bivariate ? "f(x, y)" : "k(x)");
+	svg_axis_titles(svg, &response, "cycles per pixel", "response in dB");
+	svg_text(svg, "soft", response.right, TOP - 12, "end", "beyond 0.5: aliases");
 	for (int i = count - 1; i >= 0; --i)
-		for (int diagonal = 0; diagonal <= bivariate; ++diagonal) {
-			write_curve(out, &values, &subject[i], i, value, diagonal);
-			write_curve(out, &response, &subject[i], i, response_along, diagonal);
+		for (int diagonal = bivariate; diagonal >= 0; --diagonal) {
+			write_curve(svg, &values, &subject[i], i, value, diagonal);
+			write_curve(svg, &response, &subject[i], i, response_along, diagonal);
 		}
-	write_legend(out, subject, count, bivariate);
-	text_add(out, "</svg>\n");
-}
-
-/* Appears at once, by a rename. */
-static void write_file(const char *file, const Text *text)
-{
-	const char *temporary = format("%s.%ld.tmp", file, (long)getpid());
-	FILE *stream = fopen(temporary, "w");
-	int good = stream && fwrite(text->data, 1, text->size, stream) == text->size;
-	if (stream)
-		good = fclose(stream) == 0 && good;
-	if (!good || rename(temporary, file) != 0)
-		fatal(EXIT_DIFFERENT, "cannot write %s: %s", file, strerror(errno));
 }
 
 int main(int argc, char **argv)
 {
 	Subject subject[MAX_FILTERS];
-	Text out = { 0 };
 	const int count = argc - 2;
+	Svg svg;
 	if (count < 1 || count > MAX_FILTERS) {
 		fputs("usage: plot FILTER [FILTER [FILTER]] OUT.svg\n", stderr);
 		return EXIT_USAGE;
@@ -325,8 +264,15 @@ int main(int argc, char **argv)
 	for (int i = 0; i < count; ++i)
 		subject[i] = read_subject(argv[1 + i]);
 	find_nodes();
-	write_plot(&out, subject, count);
-	write_file(argv[argc - 1], &out);
-	text_free(&out);
+	const char *title = format("The filter %s and its frequency response",
+		subject->filter.name);
+	const char *file = argv[argc - 1];
+	int good = svg_open(&svg, file, WIDE, HIGH, title);
+	if (good) {
+		write_plot(&svg, subject, count, title);
+		good = svg_close(&svg);
+	}
+	if (!good)
+		fatal(EXIT_DIFFERENT, "cannot write %s", file);
 	return EXIT_DONE;
 }

@@ -34,5 +34,6 @@ const ew_filter ew_filter_box = {
 		EW_DEPOSIT_AVX2(ew_deposit_box_avx2),
 		NULL,
 		NULL,
+		NULL,
 	}
 };

@@ -1,0 +1,2 @@
+#define EW_IMPLEMENTATION
+#include "edgewise.h"
