@@ -24,7 +24,7 @@ typedef struct { const char *path; int changed; } Stale;
 typedef struct {
 	Output *output; int outputs;
 	Stale  *stale; int stales;
-	const char *directory;                       /* to be made, or NULL */
+	const char **made; int makes;                /* directories to be made, outermost first */
 } Plan;
 
 static int read_file(const char *path, Text *text)
@@ -204,25 +204,37 @@ static void plan_output(Plan *plan, const char *path, const Text *text, int over
 
 /* ---- writing ---- */
 
-static void check_directory(Plan *plan, const char *path)
+/* Which directories on the way to this one are not there. */
+static void plan_directories(Plan *plan, const char *path)
 {
 	struct stat info;
-	if (stat(path, &info) == 0) {
-		if (!S_ISDIR(info.st_mode))
-			fatal(EXIT_DIFFERENT, "%s is a file; --out needs a directory", path);
-		return;
+	plan->made = allocate((strlen(path) + 1) * sizeof *plan->made);
+	for (size_t end = 0; path[end]; ) {
+		end += strspn(path + end, "/");
+		end += strcspn(path + end, "/");
+		char *directory = copy_string(path, end);
+		if (stat(directory, &info) != 0)
+			plan->made[plan->makes++] = directory;
+		else if (!S_ISDIR(info.st_mode))
+			fatal(EXIT_DIFFERENT, "%s is a file; --out needs a directory", directory);
 	}
-	char *parent = copy_string(path, strlen(path)), *slash = strrchr(parent, '/');
-	while (slash && slash > parent && !slash[1]) {
-		*slash = 0;
-		slash = strrchr(parent, '/');
-	}
-	if (slash && slash > parent) {
-		*slash = 0;
-		if (stat(parent, &info) != 0)
-			fatal(EXIT_DIFFERENT, "directory %s does not exist; make it first", parent);
-	}
-	plan->directory = path;
+}
+
+static void remove_directories(const Plan *plan)
+{
+	for (int i = plan->makes - 1; i >= 0; --i)
+		rmdir(plan->made[i]);
+}
+
+static void make_directories(const Plan *plan)
+{
+	for (int i = 0; i < plan->makes; ++i)
+		if (mkdir(plan->made[i], 0777) != 0 && errno != EEXIST) {   /* a/../b makes a twice */
+			const int error = errno;
+			remove_directories(plan);
+			fatal(EXIT_DIFFERENT, "cannot make directory %s: %s", plan->made[i],
+				strerror(error));
+		}
 }
 
 static int write_text(const char *path, const Text *text)
@@ -247,8 +259,7 @@ static void give_up(const Plan *plan, int written, const char *what, const char 
 	for (int i = 0; i < written; ++i)
 		if (plan->output[i].state != SAME && plan->output[i].state != DEVICE)
 			remove(plan->output[i].temporary);
-	if (plan->directory)
-		rmdir(plan->directory);
+	remove_directories(plan);
 	fatal(EXIT_DIFFERENT, "cannot %s %s: %s; %s", what, path, strerror(error), consequence);
 }
 
@@ -272,8 +283,7 @@ static void refuse_hidden_collisions(const Plan *plan)
 			: whereabouts(plan->output[i].path);
 		for (int j = 0; j < i; ++j)
 			if (strcmp(place[i], place[j]) == 0) {
-				if (plan->directory)
-					rmdir(plan->directory);
+				remove_directories(plan);
 				refuse_collision(plan, j, i);
 			}
 	}
@@ -281,9 +291,7 @@ static void refuse_hidden_collisions(const Plan *plan)
 
 static void write_all(const Plan *plan)
 {
-	if (plan->directory && mkdir(plan->directory, 0777) != 0)
-		fatal(EXIT_DIFFERENT, "cannot make directory %s: %s", plan->directory,
-			strerror(errno));
+	make_directories(plan);
 	refuse_hidden_collisions(plan);
 	for (int i = 0; i < plan->outputs; ++i) {
 		const Output *output = &plan->output[i];
@@ -356,7 +364,7 @@ int deliver(const Files *folder, const Files *single, const Delivery *how)
 	size_t most = (size_t)(folder->count + single->count + 1);
 	Plan plan = { .output = allocate(most * sizeof(Output)) };
 	if (how->out) {
-		check_directory(&plan, how->out);
+		plan_directories(&plan, how->out);
 		Record record = read_record(how);
 		for (int i = 0; i < folder->count; ++i) {
 			const File *file = &folder->file[i];

@@ -64,7 +64,7 @@ static const Vector wasm128 = {
 const Target targets[] = {
 	{ "portable", TARGET_PORTABLE, 0, NULL, NULL, NULL, "plain C99, no fused operations",
 		NULL },
-	{ "fma", TARGET_FMA, 1, "EW_BUILD_FMA", "(EW_X86 || EW_ARM || EW_FAST_FMA)",
+	{ "fma", TARGET_FMA, 1, "EW_BUILD_FMA", "(EW_TRUE_FMA && (EW_X86 || EW_ARM || EW_FAST_FMA))",
 		"EW_ATTRIBUTE_FMA", "scalar fused multiply-add",
 		NULL },
 	{ "avx2", TARGET_AVX2, 1, "EW_BUILD_AVX2", "EW_X86", "EW_ATTRIBUTE_AVX2",

@@ -219,7 +219,10 @@ static void add_compiler(Text *text, const Request *request)
 		"#define EW_WASM 1\n#define EW_ATTRIBUTE_WASM128\n"
 		"#else\n#define EW_WASM 0\n#endif\n"
 		"#if defined(__FP_FAST_FMA)\n#define EW_FAST_FMA 1\n"
-		"#else\n#define EW_FAST_FMA 0\n#endif\n");
+		"#else\n#define EW_FAST_FMA 0\n#endif\n"
+		"/* Unoptimised, compilers call the C library for fma, and mingw's rounds twice. */\n"
+		"#if defined(__MINGW32__) && !defined(__OPTIMIZE__)\n#define EW_TRUE_FMA 0\n"
+		"#else\n#define EW_TRUE_FMA 1\n#endif\n");
 	for (int t = 0; t < target_count; ++t)
 		if (targets[t].guard)
 			text_add(text, "#define %s %s\n", targets[t].guard,

@@ -90,7 +90,13 @@
 #else
 #define EW_FAST_FMA 0
 #endif
-#define EW_BUILD_FMA (EW_X86 || EW_ARM || EW_FAST_FMA)
+/* Unoptimised, compilers call the C library for fma, and mingw's rounds twice. */
+#if defined(__MINGW32__) && !defined(__OPTIMIZE__)
+#define EW_TRUE_FMA 0
+#else
+#define EW_TRUE_FMA 1
+#endif
+#define EW_BUILD_FMA (EW_TRUE_FMA && (EW_X86 || EW_ARM || EW_FAST_FMA))
 #define EW_BUILD_AVX2 EW_X86
 #define EW_BUILD_AVX512 EW_X86
 #define EW_BUILD_NEON EW_ARM

@@ -491,6 +491,14 @@ list_help_version() {
 }
 check list_help_version
 
+folders() {
+	gen --max-degree 0 --families moments --targets portable --out a/b//c/
+	gen --max-degree 0 --families moments --targets portable --out a/b/c --check
+	gen --max-degree 0 --families moments --targets portable --out d/e --dry-run
+	[ ! -e d ]
+}
+check folders
+
 quiet_and_verbose() {
 	gen --quiet --out d >q 2>&1
 	[ ! -s q ]

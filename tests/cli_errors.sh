@@ -274,10 +274,9 @@ expect_error '100000 digits' 2 'digits' --polynomial "p=$deep"
 # ---- places that cannot be written ----
 
 expect_error '--out is a file' 1 'file' --out file
-expect_error '--out without its parent' 1 'absent' --out absent/new
+expect_error 'folders made in vain' 1 'absent/new' --out one/two --depfile absent/new
 expect_error '--out below a file' 1 'file' --out file/new
 expect_error '--check of a file' 1 'file' --out file --check
-expect_error '--dry-run without the parent' 1 'absent' --out absent/new --dry-run
 for option in --single-header --manifest --depfile; do
 	expect_error "$option is a folder" 1 'folder' $option folder
 	expect_error "$option without its parent" 1 'absent/new' $option absent/new

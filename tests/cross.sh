@@ -183,6 +183,17 @@ test_windows() {
 	[ ! -d "$work/wine" ] || WINEPREFIX=$work/wine wineserver -k -w
 }
 
+# What mingw's C library gives without optimization would spoil the exact error of a product.
+test_fma() {
+	has x86_64-w64-mingw32-gcc || { skip "fma of mingw" "it is not installed"; return; }
+	printf '#include "edgewise_kernels.h"\n#if EW_BUILD_FMA\n#error fma\n#endif\n' >"$work/fma.c"
+	for level in 0 1; do
+		x86_64-w64-mingw32-gcc -O$level -I"$emitted" -fsyntax-only "$work/fma.c" 2>/dev/null
+		got=$?
+		verdict "fma of mingw -O$level" "$([ $got -eq $level ] || echo "it is the other way")"
+	done
+}
+
 # A control: with all committed hashes altered, each line of this machine must be reported.
 test_control() {
 	[ -s "$work/native" ] || return
@@ -221,6 +232,7 @@ if [ "${2:-}" = accept ]; then
 else
 	test_machines
 	test_windows
+	test_fma
 	test_control
 	test_x87
 fi
