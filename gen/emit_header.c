@@ -430,6 +430,8 @@ static void add_curve_edges(Text *text, const Request *request, const Kernels *k
 
 static void add_line_edges(Text *text, const Request *request, const Kernels *kernels)
 {
+	if (!(request->edges & EDGE_LINE) || request->monomials + request->polynomials == 0)
+		return;
 	add_comment(text, "Contribution of one line edge (x0,y0) -> (x1,y1) to the integral of "
 		"x^m y^n or of a polynomial: m! n!/(m+n+2)! (x0 y1 - x1 y0) "
 		"sum_pq C(p+q,q) C(m+n-p-q,n-q) x0^(m-p) x1^p y0^(n-q) y1^q. Swapping the ends "
@@ -479,13 +481,6 @@ static void add_filters(Text *text, const Request *request)
 	}
 }
 
-static void add_edges(Text *text, const Request *request, const Kernels *kernels)
-{
-	if (request->edges & EDGE_LINE && request->monomials + request->polynomials > 0)
-		add_line_edges(text, request, kernels);
-	add_curve_edges(text, request, kernels);
-}
-
 void emit_header(Files *files, const Request *request, const Kernels *kernels)
 {
 	const char *name = "edgewise.h";
@@ -499,9 +494,10 @@ void emit_header(Files *files, const Request *request, const Kernels *kernels)
 	text_add(text, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n");
 	add_entries(text, rings, LENGTH(rings), request);
 	add_entries(text, kinds, LENGTH(kinds), request);
-	add_edges(text, request, kernels);
+	add_curve_edges(text, request, kernels);
 	add_filters(text, request);
 	add_entries(text, windows, LENGTH(windows), request);
+	add_line_edges(text, request, kernels);          /* so many that they would hide the rest */
 	add_entries(text, dispatch, LENGTH(dispatch), request);
 	text_add(text, "\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n");
 }

@@ -257,102 +257,6 @@ int ew_is_closed(const double *x0, const double *y0, const double *x1, const dou
 	size_t edges);
 int ew_is_closedf(const float *x0, const float *y0, const float *x1, const float *y1, size_t edges);
 
-/* Contribution of one line edge (x0,y0) -> (x1,y1) to the integral of x^m y^n or of a
- * polynomial: m! n!/(m+n+2)! (x0 y1 - x1 y0) sum_pq C(p+q,q) C(m+n-p-q,n-q) x0^(m-p) x1^p
- * y0^(n-q) y1^q. Swapping the ends negates it bit for bit. NaN or infinity in gives NaN or
- * infinity out. The matrix, the error bound and the cost stand above each body. Source: Green's
- * theorem; Steger 1996. */
-double ew_line_x0y0(double x0, double y0, double x1, double y1);
-float ew_line_x0y0f(float x0, float y0, float x1, float y1);
-double ew_line_x1y0(double x0, double y0, double x1, double y1);
-float ew_line_x1y0f(float x0, float y0, float x1, float y1);
-double ew_line_x0y1(double x0, double y0, double x1, double y1);
-float ew_line_x0y1f(float x0, float y0, float x1, float y1);
-double ew_line_x2y0(double x0, double y0, double x1, double y1);
-float ew_line_x2y0f(float x0, float y0, float x1, float y1);
-double ew_line_x1y1(double x0, double y0, double x1, double y1);
-float ew_line_x1y1f(float x0, float y0, float x1, float y1);
-double ew_line_x0y2(double x0, double y0, double x1, double y1);
-float ew_line_x0y2f(float x0, float y0, float x1, float y1);
-double ew_line_x3y0(double x0, double y0, double x1, double y1);
-float ew_line_x3y0f(float x0, float y0, float x1, float y1);
-double ew_line_x2y1(double x0, double y0, double x1, double y1);
-float ew_line_x2y1f(float x0, float y0, float x1, float y1);
-double ew_line_x1y2(double x0, double y0, double x1, double y1);
-float ew_line_x1y2f(float x0, float y0, float x1, float y1);
-double ew_line_x0y3(double x0, double y0, double x1, double y1);
-float ew_line_x0y3f(float x0, float y0, float x1, float y1);
-double ew_line_x4y0(double x0, double y0, double x1, double y1);
-float ew_line_x4y0f(float x0, float y0, float x1, float y1);
-double ew_line_x3y1(double x0, double y0, double x1, double y1);
-float ew_line_x3y1f(float x0, float y0, float x1, float y1);
-double ew_line_x2y2(double x0, double y0, double x1, double y1);
-float ew_line_x2y2f(float x0, float y0, float x1, float y1);
-double ew_line_x1y3(double x0, double y0, double x1, double y1);
-float ew_line_x1y3f(float x0, float y0, float x1, float y1);
-double ew_line_x0y4(double x0, double y0, double x1, double y1);
-float ew_line_x0y4f(float x0, float y0, float x1, float y1);
-double ew_line_x5y0(double x0, double y0, double x1, double y1);
-float ew_line_x5y0f(float x0, float y0, float x1, float y1);
-double ew_line_x4y1(double x0, double y0, double x1, double y1);
-float ew_line_x4y1f(float x0, float y0, float x1, float y1);
-double ew_line_x3y2(double x0, double y0, double x1, double y1);
-float ew_line_x3y2f(float x0, float y0, float x1, float y1);
-double ew_line_x2y3(double x0, double y0, double x1, double y1);
-float ew_line_x2y3f(float x0, float y0, float x1, float y1);
-double ew_line_x1y4(double x0, double y0, double x1, double y1);
-float ew_line_x1y4f(float x0, float y0, float x1, float y1);
-double ew_line_x0y5(double x0, double y0, double x1, double y1);
-float ew_line_x0y5f(float x0, float y0, float x1, float y1);
-double ew_line_x6y0(double x0, double y0, double x1, double y1);
-float ew_line_x6y0f(float x0, float y0, float x1, float y1);
-double ew_line_x5y1(double x0, double y0, double x1, double y1);
-float ew_line_x5y1f(float x0, float y0, float x1, float y1);
-double ew_line_x4y2(double x0, double y0, double x1, double y1);
-float ew_line_x4y2f(float x0, float y0, float x1, float y1);
-double ew_line_x3y3(double x0, double y0, double x1, double y1);
-float ew_line_x3y3f(float x0, float y0, float x1, float y1);
-double ew_line_x2y4(double x0, double y0, double x1, double y1);
-float ew_line_x2y4f(float x0, float y0, float x1, float y1);
-double ew_line_x1y5(double x0, double y0, double x1, double y1);
-float ew_line_x1y5f(float x0, float y0, float x1, float y1);
-double ew_line_x0y6(double x0, double y0, double x1, double y1);
-float ew_line_x0y6f(float x0, float y0, float x1, float y1);
-double ew_line_x7y0(double x0, double y0, double x1, double y1);
-float ew_line_x7y0f(float x0, float y0, float x1, float y1);
-double ew_line_x6y1(double x0, double y0, double x1, double y1);
-float ew_line_x6y1f(float x0, float y0, float x1, float y1);
-double ew_line_x5y2(double x0, double y0, double x1, double y1);
-float ew_line_x5y2f(float x0, float y0, float x1, float y1);
-double ew_line_x4y3(double x0, double y0, double x1, double y1);
-float ew_line_x4y3f(float x0, float y0, float x1, float y1);
-double ew_line_x3y4(double x0, double y0, double x1, double y1);
-float ew_line_x3y4f(float x0, float y0, float x1, float y1);
-double ew_line_x2y5(double x0, double y0, double x1, double y1);
-float ew_line_x2y5f(float x0, float y0, float x1, float y1);
-double ew_line_x1y6(double x0, double y0, double x1, double y1);
-float ew_line_x1y6f(float x0, float y0, float x1, float y1);
-double ew_line_x0y7(double x0, double y0, double x1, double y1);
-float ew_line_x0y7f(float x0, float y0, float x1, float y1);
-double ew_line_x8y0(double x0, double y0, double x1, double y1);
-float ew_line_x8y0f(float x0, float y0, float x1, float y1);
-double ew_line_x7y1(double x0, double y0, double x1, double y1);
-float ew_line_x7y1f(float x0, float y0, float x1, float y1);
-double ew_line_x6y2(double x0, double y0, double x1, double y1);
-float ew_line_x6y2f(float x0, float y0, float x1, float y1);
-double ew_line_x5y3(double x0, double y0, double x1, double y1);
-float ew_line_x5y3f(float x0, float y0, float x1, float y1);
-double ew_line_x4y4(double x0, double y0, double x1, double y1);
-float ew_line_x4y4f(float x0, float y0, float x1, float y1);
-double ew_line_x3y5(double x0, double y0, double x1, double y1);
-float ew_line_x3y5f(float x0, float y0, float x1, float y1);
-double ew_line_x2y6(double x0, double y0, double x1, double y1);
-float ew_line_x2y6f(float x0, float y0, float x1, float y1);
-double ew_line_x1y7(double x0, double y0, double x1, double y1);
-float ew_line_x1y7f(float x0, float y0, float x1, float y1);
-double ew_line_x0y8(double x0, double y0, double x1, double y1);
-float ew_line_x0y8f(float x0, float y0, float x1, float y1);
-
 /* Area of one edge, form 3: (x0 y1 - x1 y0)/2, (2 c01 + 2 c12 + c02)/6, (6 c01 + 3 c02 + c03 + 3
  * c12 + 3 c13 + 6 c23)/20 with c_ij = x_i y_j - x_j y_i. Swapping the ends negates it bit for
  * bit. Bound and cost stand above each body. Source: Green's theorem. */
@@ -468,6 +372,102 @@ int ew_raster_path(const ew_filter *filter, const unsigned char *verbs, size_t v
 int ew_raster_pathf(const ew_filter *filter, const unsigned char *verbs, size_t verb_count,
 	const float *points, size_t point_count, const float *weights, size_t weight_count,
 	float *pixels, int width, int height, ptrdiff_t row_stride);
+
+/* Contribution of one line edge (x0,y0) -> (x1,y1) to the integral of x^m y^n or of a
+ * polynomial: m! n!/(m+n+2)! (x0 y1 - x1 y0) sum_pq C(p+q,q) C(m+n-p-q,n-q) x0^(m-p) x1^p
+ * y0^(n-q) y1^q. Swapping the ends negates it bit for bit. NaN or infinity in gives NaN or
+ * infinity out. The matrix, the error bound and the cost stand above each body. Source: Green's
+ * theorem; Steger 1996. */
+double ew_line_x0y0(double x0, double y0, double x1, double y1);
+float ew_line_x0y0f(float x0, float y0, float x1, float y1);
+double ew_line_x1y0(double x0, double y0, double x1, double y1);
+float ew_line_x1y0f(float x0, float y0, float x1, float y1);
+double ew_line_x0y1(double x0, double y0, double x1, double y1);
+float ew_line_x0y1f(float x0, float y0, float x1, float y1);
+double ew_line_x2y0(double x0, double y0, double x1, double y1);
+float ew_line_x2y0f(float x0, float y0, float x1, float y1);
+double ew_line_x1y1(double x0, double y0, double x1, double y1);
+float ew_line_x1y1f(float x0, float y0, float x1, float y1);
+double ew_line_x0y2(double x0, double y0, double x1, double y1);
+float ew_line_x0y2f(float x0, float y0, float x1, float y1);
+double ew_line_x3y0(double x0, double y0, double x1, double y1);
+float ew_line_x3y0f(float x0, float y0, float x1, float y1);
+double ew_line_x2y1(double x0, double y0, double x1, double y1);
+float ew_line_x2y1f(float x0, float y0, float x1, float y1);
+double ew_line_x1y2(double x0, double y0, double x1, double y1);
+float ew_line_x1y2f(float x0, float y0, float x1, float y1);
+double ew_line_x0y3(double x0, double y0, double x1, double y1);
+float ew_line_x0y3f(float x0, float y0, float x1, float y1);
+double ew_line_x4y0(double x0, double y0, double x1, double y1);
+float ew_line_x4y0f(float x0, float y0, float x1, float y1);
+double ew_line_x3y1(double x0, double y0, double x1, double y1);
+float ew_line_x3y1f(float x0, float y0, float x1, float y1);
+double ew_line_x2y2(double x0, double y0, double x1, double y1);
+float ew_line_x2y2f(float x0, float y0, float x1, float y1);
+double ew_line_x1y3(double x0, double y0, double x1, double y1);
+float ew_line_x1y3f(float x0, float y0, float x1, float y1);
+double ew_line_x0y4(double x0, double y0, double x1, double y1);
+float ew_line_x0y4f(float x0, float y0, float x1, float y1);
+double ew_line_x5y0(double x0, double y0, double x1, double y1);
+float ew_line_x5y0f(float x0, float y0, float x1, float y1);
+double ew_line_x4y1(double x0, double y0, double x1, double y1);
+float ew_line_x4y1f(float x0, float y0, float x1, float y1);
+double ew_line_x3y2(double x0, double y0, double x1, double y1);
+float ew_line_x3y2f(float x0, float y0, float x1, float y1);
+double ew_line_x2y3(double x0, double y0, double x1, double y1);
+float ew_line_x2y3f(float x0, float y0, float x1, float y1);
+double ew_line_x1y4(double x0, double y0, double x1, double y1);
+float ew_line_x1y4f(float x0, float y0, float x1, float y1);
+double ew_line_x0y5(double x0, double y0, double x1, double y1);
+float ew_line_x0y5f(float x0, float y0, float x1, float y1);
+double ew_line_x6y0(double x0, double y0, double x1, double y1);
+float ew_line_x6y0f(float x0, float y0, float x1, float y1);
+double ew_line_x5y1(double x0, double y0, double x1, double y1);
+float ew_line_x5y1f(float x0, float y0, float x1, float y1);
+double ew_line_x4y2(double x0, double y0, double x1, double y1);
+float ew_line_x4y2f(float x0, float y0, float x1, float y1);
+double ew_line_x3y3(double x0, double y0, double x1, double y1);
+float ew_line_x3y3f(float x0, float y0, float x1, float y1);
+double ew_line_x2y4(double x0, double y0, double x1, double y1);
+float ew_line_x2y4f(float x0, float y0, float x1, float y1);
+double ew_line_x1y5(double x0, double y0, double x1, double y1);
+float ew_line_x1y5f(float x0, float y0, float x1, float y1);
+double ew_line_x0y6(double x0, double y0, double x1, double y1);
+float ew_line_x0y6f(float x0, float y0, float x1, float y1);
+double ew_line_x7y0(double x0, double y0, double x1, double y1);
+float ew_line_x7y0f(float x0, float y0, float x1, float y1);
+double ew_line_x6y1(double x0, double y0, double x1, double y1);
+float ew_line_x6y1f(float x0, float y0, float x1, float y1);
+double ew_line_x5y2(double x0, double y0, double x1, double y1);
+float ew_line_x5y2f(float x0, float y0, float x1, float y1);
+double ew_line_x4y3(double x0, double y0, double x1, double y1);
+float ew_line_x4y3f(float x0, float y0, float x1, float y1);
+double ew_line_x3y4(double x0, double y0, double x1, double y1);
+float ew_line_x3y4f(float x0, float y0, float x1, float y1);
+double ew_line_x2y5(double x0, double y0, double x1, double y1);
+float ew_line_x2y5f(float x0, float y0, float x1, float y1);
+double ew_line_x1y6(double x0, double y0, double x1, double y1);
+float ew_line_x1y6f(float x0, float y0, float x1, float y1);
+double ew_line_x0y7(double x0, double y0, double x1, double y1);
+float ew_line_x0y7f(float x0, float y0, float x1, float y1);
+double ew_line_x8y0(double x0, double y0, double x1, double y1);
+float ew_line_x8y0f(float x0, float y0, float x1, float y1);
+double ew_line_x7y1(double x0, double y0, double x1, double y1);
+float ew_line_x7y1f(float x0, float y0, float x1, float y1);
+double ew_line_x6y2(double x0, double y0, double x1, double y1);
+float ew_line_x6y2f(float x0, float y0, float x1, float y1);
+double ew_line_x5y3(double x0, double y0, double x1, double y1);
+float ew_line_x5y3f(float x0, float y0, float x1, float y1);
+double ew_line_x4y4(double x0, double y0, double x1, double y1);
+float ew_line_x4y4f(float x0, float y0, float x1, float y1);
+double ew_line_x3y5(double x0, double y0, double x1, double y1);
+float ew_line_x3y5f(float x0, float y0, float x1, float y1);
+double ew_line_x2y6(double x0, double y0, double x1, double y1);
+float ew_line_x2y6f(float x0, float y0, float x1, float y1);
+double ew_line_x1y7(double x0, double y0, double x1, double y1);
+float ew_line_x1y7f(float x0, float y0, float x1, float y1);
+double ew_line_x0y8(double x0, double y0, double x1, double y1);
+float ew_line_x0y8f(float x0, float y0, float x1, float y1);
 
 /* Bit set of the targets that this build has and this CPU runs. */
 unsigned ew_targets(void);
