@@ -457,6 +457,8 @@ typedef struct {
 
 Program schedule(const Dag *dag);
 void program_dump(Text *text, const Program *program);
+/* A bug unless the operands of this step are ready, and said to be alive. */
+void program_check_step(const Program *program, int at, const unsigned char *ready);
 
 /* ---- proof.c: the always-on checks --------------------------------------- */
 

@@ -104,9 +104,7 @@ static Poly *run(const Program *program)
 	for (int at = 0; at < program->count; ++at) {
 		Ref ref = program->order[at];
 		const Node *node = &dag->node[ref];
-		for (int k = 0; k < op_operands(node->op); ++k)
-			if (!ready[node->arg[k]] || program->last[node->arg[k]] < at)
-				bug("after schedule step %d uses a value that is not there", at);
+		program_check_step(program, at, ready);
 		poly[ref] = dag_expand_node(node, poly);
 		ready[ref] = 1;
 	}

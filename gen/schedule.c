@@ -140,6 +140,14 @@ Program schedule(const Dag *dag)
 	return rows.live <= most ? rows : best;
 }
 
+void program_check_step(const Program *program, int at, const unsigned char *ready)
+{
+	const Node *node = &program->dag->node[program->order[at]];
+	for (int k = 0; k < op_operands(node->op); ++k)
+		if (!ready[node->arg[k]] || program->last[node->arg[k]] < at)
+			bug("after schedule step %d uses a value that is not there", at);
+}
+
 void program_dump(Text *text, const Program *program)
 {
 	for (int at = 0; at < program->count; ++at) {

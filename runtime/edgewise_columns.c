@@ -47,6 +47,10 @@ EW_INLINE size_t ew_ring_bytes(size_t start, size_t size)
 }
 
 #define EW_BYTES(start) ew_ring_bytes((size_t)(start), sizeof(EW_REAL))
+#define EW_STARTS_2(s) EW_BYTES((s)[0]), EW_BYTES((s)[1])
+#define EW_STARTS_4(s) EW_STARTS_2(s), EW_STARTS_2((s) + 2)
+#define EW_STARTS_8(s) EW_STARTS_4(s), EW_STARTS_4((s) + 4)
+#define EW_STARTS_16(s) EW_STARTS_8(s), EW_STARTS_8((s) + 8)
 #define EW_DOUBLES(bytes) ((const double *)(const void *)((const char *)from + (bytes)))
 #define EW_FLOATS(bytes) ((const float *)(const void *)((const char *)from + (bytes)))
 #endif
@@ -105,7 +109,7 @@ EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2(const double *from, const si
 #define EW_VECTOR __m256d
 #define EW_ATTRIBUTE EW_ATTRIBUTE_AVX2
 #define EW_ROWS 4
-#define EW_STARTS(s) { EW_BYTES(s[0]), EW_BYTES(s[1]), EW_BYTES(s[2]), EW_BYTES(s[3]) }
+#define EW_STARTS EW_STARTS_4
 #define EW_COUNTS __m128i
 #define EW_OVER(s) _mm_sub_epi32(_mm_loadu_si128((const __m128i *)(s + 1)), \
 	_mm_add_epi32(_mm_loadu_si128((const __m128i *)(s)), _mm_set1_epi32(3)))
@@ -156,8 +160,7 @@ EW_ATTRIBUTE_AVX2 EW_INLINE void ew_ring_block_avx2f(const float *from, const si
 #define EW_VECTOR __m256
 #define EW_ATTRIBUTE EW_ATTRIBUTE_AVX2
 #define EW_ROWS 8
-#define EW_STARTS(s) { EW_BYTES(s[0]), EW_BYTES(s[1]), EW_BYTES(s[2]), EW_BYTES(s[3]), \
-	EW_BYTES(s[4]), EW_BYTES(s[5]), EW_BYTES(s[6]), EW_BYTES(s[7]) }
+#define EW_STARTS EW_STARTS_8
 #define EW_COUNTS __m256i
 #define EW_OVER(s) _mm256_sub_epi32(_mm256_loadu_si256((const __m256i *)(s + 1)), \
 	_mm256_add_epi32(_mm256_loadu_si256((const __m256i *)(s)), _mm256_set1_epi32(3)))
@@ -238,8 +241,7 @@ EW_ATTRIBUTE_AVX512 EW_INLINE void ew_ring_block_avx512(const double *from, cons
 #define EW_VECTOR __m512d
 #define EW_ATTRIBUTE EW_ATTRIBUTE_AVX512
 #define EW_ROWS 8
-#define EW_STARTS(s) { EW_BYTES(s[0]), EW_BYTES(s[1]), EW_BYTES(s[2]), EW_BYTES(s[3]), \
-	EW_BYTES(s[4]), EW_BYTES(s[5]), EW_BYTES(s[6]), EW_BYTES(s[7]) }
+#define EW_STARTS EW_STARTS_8
 #define EW_COUNTS __m256i
 #define EW_OVER(s) _mm256_sub_epi32(_mm256_loadu_si256((const __m256i *)(s + 1)), \
 	_mm256_add_epi32(_mm256_loadu_si256((const __m256i *)(s)), _mm256_set1_epi32(3)))
@@ -296,10 +298,7 @@ EW_ATTRIBUTE_AVX512 EW_INLINE void ew_ring_block_avx512f(const float *from, cons
 #define EW_VECTOR __m512
 #define EW_ATTRIBUTE EW_ATTRIBUTE_AVX512
 #define EW_ROWS 16
-#define EW_STARTS(s) { EW_BYTES(s[0]), EW_BYTES(s[1]), EW_BYTES(s[2]), EW_BYTES(s[3]), \
-	EW_BYTES(s[4]), EW_BYTES(s[5]), EW_BYTES(s[6]), EW_BYTES(s[7]), \
-	EW_BYTES(s[8]), EW_BYTES(s[9]), EW_BYTES(s[10]), EW_BYTES(s[11]), \
-	EW_BYTES(s[12]), EW_BYTES(s[13]), EW_BYTES(s[14]), EW_BYTES(s[15]) }
+#define EW_STARTS EW_STARTS_16
 #define EW_COUNTS __m512i
 #define EW_OVER(s) _mm512_sub_epi32(_mm512_loadu_si512(s + 1), \
 	_mm512_add_epi32(_mm512_loadu_si512(s), _mm512_set1_epi32(3)))
@@ -356,7 +355,7 @@ EW_INLINE void ew_ring_block_neon(const double *from, const size_t *start, float
 #define EW_VECTOR float64x2_t
 #define EW_ATTRIBUTE EW_ATTRIBUTE_NEON
 #define EW_ROWS 2
-#define EW_STARTS(s) { EW_BYTES(s[0]), EW_BYTES(s[1]) }
+#define EW_STARTS EW_STARTS_2
 #define EW_COUNTS int32x2_t
 #define EW_OVER(s) vsub_s32(vld1_s32(s + 1), vadd_s32(vld1_s32(s), vdup_n_s32(3)))
 #define EW_SAME(n, m) (vget_lane_s32(n, 1) == (m))
@@ -398,7 +397,7 @@ EW_INLINE void ew_ring_block_neonf(const float *from, const size_t *start, float
 #define EW_VECTOR float32x4_t
 #define EW_ATTRIBUTE EW_ATTRIBUTE_NEON
 #define EW_ROWS 4
-#define EW_STARTS(s) { EW_BYTES(s[0]), EW_BYTES(s[1]), EW_BYTES(s[2]), EW_BYTES(s[3]) }
+#define EW_STARTS EW_STARTS_4
 #define EW_COUNTS int32x4_t
 #define EW_OVER(s) vsubq_s32(vld1q_s32(s + 1), vaddq_s32(vld1q_s32(s), vdupq_n_s32(3)))
 #define EW_SAME(n, m) \
@@ -461,7 +460,7 @@ EW_INLINE void ew_ring_block_wasm128(const double *from, const size_t *start, v1
 #define EW_VECTOR v128_t
 #define EW_ATTRIBUTE EW_ATTRIBUTE_WASM128
 #define EW_ROWS 2
-#define EW_STARTS(s) { EW_BYTES(s[0]), EW_BYTES(s[1]) }
+#define EW_STARTS EW_STARTS_2
 #define EW_COUNTS v128_t
 #define EW_OVER(s) wasm_i32x4_sub(wasm_v128_load64_zero(s + 1), \
 	wasm_i32x4_add(wasm_v128_load64_zero(s), wasm_i32x4_make(3, 3, 0, 0)))
@@ -506,7 +505,7 @@ EW_INLINE void ew_ring_block_wasm128f(const float *from, const size_t *start, v1
 #define EW_VECTOR v128_t
 #define EW_ATTRIBUTE EW_ATTRIBUTE_WASM128
 #define EW_ROWS 4
-#define EW_STARTS(s) { EW_BYTES(s[0]), EW_BYTES(s[1]), EW_BYTES(s[2]), EW_BYTES(s[3]) }
+#define EW_STARTS EW_STARTS_4
 #define EW_COUNTS v128_t
 #define EW_OVER(s) wasm_i32x4_sub(wasm_v128_load(s + 1), \
 	wasm_i32x4_add(wasm_v128_load(s), wasm_i32x4_splat(3)))

@@ -71,7 +71,7 @@ EW_ATTRIBUTE EW_INLINE void EW_ISA(fill)(const EW_REAL *from, const size_t *star
 EW_ATTRIBUTE static void EW_ISA(gather)(const EW_REAL *x, const EW_REAL *y,
 	const EW_LOCAL(lanes) *lanes, EW_REAL *tile_x, EW_REAL *tile_y)
 {
-	const size_t start[EW_ROWS] = EW_STARTS(lanes->start);
+	const size_t start[EW_ROWS] = { EW_STARTS(lanes->start) };
 	const EW_VECTOR length = EW_LOAD(lanes->length);
 	EW_ISA(fill)(x, start, lanes->longest, length, tile_x);
 	EW_ISA(fill)(y, start, lanes->longest, length, tile_y);

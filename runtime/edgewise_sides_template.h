@@ -113,7 +113,7 @@ EW_ATTRIBUTE static void EW_SIDE(sum_any)(const EW_REAL *x, const EW_REAL *y,
 	EW_LOCAL(fit)(x, y, offsets, EW_ROWS, EW_ROWS, &lanes);
 	for (int k = 0; k < EW_SIDE_SUMS; ++k)
 		acc[k] = EW_SPLAT(0);
-	const size_t start[EW_ROWS] = EW_STARTS(lanes.start);
+	const size_t start[EW_ROWS] = { EW_STARTS(lanes.start) };
 	const EW_VECTOR length = EW_LOAD(lanes.length);
 	if (lanes.longest)
 		EW_SIDE(sum)(x, y, start, 0, lanes.longest, length, acc);
@@ -132,7 +132,7 @@ EW_ATTRIBUTE static size_t EW_SIDE(side)(const EW_REAL *x, const EW_REAL *y,
 		const int same = EW_SAME(over, first);
 		const uint32_t most = same ? (uint32_t)first : EW_MOST(over);
 		const size_t longest = most < EW_SHORT - 3 ? most + 3 : (size_t)EW_SHORT;
-		const size_t start[EW_ROWS] = EW_STARTS(s);
+		const size_t start[EW_ROWS] = { EW_STARTS(s) };
 		if ((size_t)s[EW_ROWS - 1] + longest + 3 > vertices)
 			break;
 		if (longest == EW_SHORT) {
