@@ -127,7 +127,8 @@ tree=$work/tree
 # A copy of the sources and of gen's objects, where make rebuilds what a mutation touches.
 make_tree() {
 	mkdir -p "$tree/build" &&
-		cp -Rp "$root/gen" "$root/runtime" "$root/tests" "$root/Makefile" "$tree" &&
+		cp -Rp "$root/gen" "$root/runtime" "$root/tests" "$root/bench" "$root/examples" \
+			"$root/Makefile" "$tree" &&
 		cp -Rp "$build/obj" "$build/embed" "$build/gen" "$tree/build"
 }
 
