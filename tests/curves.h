@@ -158,6 +158,18 @@ static inline bool all_nonfinite(const Api *api, const void *v, int count)
 	return true;
 }
 
+/* The area of a curve that has a NaN or an infinity, and its moments of every degree. */
+static inline void expect_nonfinite(const Api *api, const Curve *c)
+{
+	expect(!isfinite(area_of(api, c)), "area is finite: %s", curve_text(c));
+	for (int d = 0; d <= CURVE_DEGREE; d++) {
+		double out[CURVE_MOMENTS];
+		moments_of(api, d, c, out);
+		expect(all_nonfinite(api, out, ref_count(d)),
+			"a moment of degree %d is finite: %s", d, curve_text(c));
+	}
+}
+
 /* Samples: curves with their exact moments, and what the library said of them so far. */
 
 enum { CANARY = 0x88, MARGIN = 16 };
