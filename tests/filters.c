@@ -314,22 +314,15 @@ static void test_every_size(const Api *api, const Subject *s)
 	check_begin("every n: the same bits, no read beside: %s, %s", s->row->name, api->name);
 	for (int i = 0; i < 4 * (MOST + 1); i++) {
 		Ring ring = ring_new((size_t)i / 4);
-		uint64_t fused = 0, bits;
-		bool some = false;
+		Fused fused = { 0 };
 		fill_ring(api, s, &ring, i % 4, at);
 		const void *x = guarded_copy(&g[0], ring.px, ring.n * api->size, i & 1);
 		const void *y = guarded_copy(&g[1], ring.py, ring.n * api->size, i & 2);
 		for (int t = 0; t < target_count; t++) {
 			ew_use_target(target_bit[t]);
 			const double got = filter_of(s->row, api)->ring(x, y, ring.n, at[0], at[1]);
-			memcpy(&bits, &got, sizeof bits);
 			expect(ring.n > 2 || got == 0, "n = %zu: %a", ring.n, got);
-			if (target_bit[t] == EW_PORTABLE)
-				continue;
-			expect(!some || bits == fused, "n = %zu, %s: %a, other bits before",
-				ring.n, ew_target_name(target_bit[t]), got);
-			fused = bits;
-			some = true;
+			expect_same_if_fused(&fused, target_bit[t], got, ring.n);
 		}
 		ring_free(&ring);
 	}

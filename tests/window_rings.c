@@ -142,24 +142,16 @@ static void test_every_size(const Api *api)
 	check_begin("every n: the same bits, no read beside, %s", api->name);
 	for (int i = 0; i < 4 * (MOST + 1); i++) {
 		Ring ring = ring_new((size_t)i / 4);
-		uint64_t fused = 0;
-		bool some = false;
+		Fused fused = { 0 };
 		fill_window(api, r);
 		fill_ring(api, &ring, i % FILLS, r);
 		const void *x = guarded_copy(&g[0], ring.px, ring.n * api->size, i & 1);
 		const void *y = guarded_copy(&g[1], ring.py, ring.n * api->size, i & 2);
 		for (unsigned bit = 1; bit; bit <<= 1) {
-			uint64_t bits;
 			if (!(ew_targets() & bit) || ew_use_target(bit) != EW_OK)
 				continue;
 			const double got = windows_of(api)->ring(x, y, ring.n, r);
-			memcpy(&bits, &got, sizeof bits);
-			if (bit == EW_PORTABLE)
-				continue;
-			expect(!some || bits == fused, "n = %zu, %s: %a, other bits before",
-				ring.n, ew_target_name(bit), got);
-			fused = bits;
-			some = true;
+			expect_same_if_fused(&fused, bit, got, ring.n);
 		}
 		ring_free(&ring);
 	}

@@ -119,4 +119,21 @@ static inline void edge_ring(const Api *api, Ring *ring, const double e[SIDES], 
 	ring_pack(api, ring);
 }
 
+/* What the targets with fused operations seen so far gave for a ring: all of them the same. */
+typedef struct {
+	uint64_t bits;
+	bool some;
+} Fused;
+
+static inline void expect_same_if_fused(Fused *fused, unsigned target, double got, size_t n)
+{
+	uint64_t bits;
+	if (target == EW_PORTABLE)
+		return;
+	memcpy(&bits, &got, sizeof bits);
+	expect(!fused->some || bits == fused->bits, "n = %zu, %s: %a, other bits before", n,
+		ew_target_name(target), got);
+	*fused = (Fused){ bits, true };
+}
+
 #endif
