@@ -4,17 +4,14 @@
 #
 #     sh tests/filter_fuzz.sh BUILD [RUNS [SEED]]
 #
-# By libFuzzer, if FUZZ_CC is a clang that has it (Debian: libclang-rt-14-dev), and by a driver
-# without feedback, compiled by CC. Both begin with the built-in filters and those below. A
-# finding is left in BUILD/tests/filter_fuzz.finding.
+# By libFuzzer, if FUZZ_CC has it, and by a driver without feedback, compiled by CC. Both begin with
+# the built-in filters and those below. A finding is left in BUILD/tests/filter_fuzz.finding.
 set -u
-build=${1:-build}
 runs=${2:-30000}
-seed=${3:-1}
-: "${FUZZ_CC:=clang}"
 . "$(dirname "$0")/verdict.sh"
-mkdir -p "$build/tests" "$work/corpus"
-finding=$(cd "$build/tests" && pwd)/filter_fuzz.finding
+. "$tests/fuzzing.sh"
+finding=$findings/filter_fuzz.finding
+complaint='internal error|: input: '
 words=$tests/filter_fuzz.dict
 longest=400
 sanitize='-fsanitize=address,undefined -fno-sanitize-recover=all'
@@ -46,28 +43,8 @@ compile() {
 		"$1" -std=gnu11 -O2 -g $sanitize -c -o "$work/harness.o" "$tests/filter_fuzz.c"
 }
 
-why_not() {
-	has "$FUZZ_CC" || { echo "no $FUZZ_CC"; return; }
-	echo 'int LLVMFuzzerTestOneInput(const char *d, int n) { return d + n ? 0 : 0; }' \
-		>"$work/empty.c"
-	"$FUZZ_CC" -w -fsanitize=fuzzer,address,undefined -o "$work/empty" "$work/empty.c" \
-		2>"$work/log" && "$work/empty" -runs=1 >"$work/log" 2>&1 ||
-		echo "$FUZZ_CC has no fuzzer runtime"
-}
-
-# NAME STATUS: of the run that left its log, and an input if it failed.
-conclude() {
-	grep '^Done' "$work/log"
-	problem=
-	if [ "$2" -ne 0 ]; then
-		problem=$(grep -a -m 1 -E 'ERROR|runtime error|internal error|: input: ' "$work/log")
-		problem="$problem, see $finding"
-	fi
-	verdict "$1" "$problem"
-}
-
 with_libfuzzer() {
-	reason=$(why_not)
+	reason=$(why_no_libfuzzer)
 	if [ -n "$reason" ]; then
 		skip "fuzzing of filter files" "$reason"
 	elif ! compile "$FUZZ_CC" -fsanitize=fuzzer-no-link 2>"$work/log" ||
@@ -75,10 +52,8 @@ with_libfuzzer() {
 			"$work"/*.o 2>"$work/log"; then
 		verdict "fuzzing of filter files" "does not compile: $(grep -m 1 error "$work/log")"
 	else
-		"$work/fuzz" -runs="$runs" -seed="$seed" -max_len=$longest -len_control=20 \
-			-timeout=20 -dict="$words" -exact_artifact_path="$finding" \
-			"$work/corpus" >"$work/log" 2>&1
-		conclude "fuzzing of filter files, $runs runs" $?
+		libfuzzer "$work/fuzz" -max_len=$longest -dict="$words"
+		conclude "fuzzing of filter files, $runs runs" $? "$complaint"
 	fi
 }
 
@@ -97,7 +72,7 @@ with_driver() {
 			>"$work/log" 2>&1
 		status=$?
 		[ $status -eq 0 ] || mv "$work/fuzz.input" "$finding"
-		conclude "mutated filter files, $runs runs" $status
+		conclude "mutated filter files, $runs runs" $status "$complaint"
 	fi
 }
 
