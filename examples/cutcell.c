@@ -438,17 +438,13 @@ static void cut_cells(const Outlines *outlines, const Shape *shape, int cells, b
 
 /* ---- command line ---- */
 
-static int usage(FILE *stream)
-{
-	fputs("usage: cutcell [--exact] [--cells N] FILE [SHAPE]\n"
-	      "Lays a grid of square cells over a shape, N along its longer side (default: 64),\n"
-	      "and prints for each cell that its boundary cuts: volume fraction, centroid, second\n"
-	      "moments about the cell's centre, and the least weight of its quadrature rule; then\n"
-	      "the moments of all cells beside those of the shape. SHAPE: default the first.\n"
-	      "--exact prints vertices, all moments and weights in hexadecimal.\n",
-	      stream);
-	return stream == stderr ? 2 : finish_output();
-}
+static const char usage[] =
+	"usage: cutcell [--exact] [--cells N] FILE [SHAPE]\n"
+	"Lays a grid of square cells over a shape, N along its longer side (default: 64),\n"
+	"and prints for each cell that its boundary cuts: volume fraction, centroid, second\n"
+	"moments about the cell's centre, and the least weight of its quadrature rule; then\n"
+	"the moments of all cells beside those of the shape. SHAPE: default the first.\n"
+	"--exact prints vertices, all moments and weights in hexadecimal.\n";
 
 static const Shape *find_shape(const Outlines *outlines, const char *file, const char *name)
 {
@@ -461,32 +457,25 @@ static const Shape *find_shape(const Outlines *outlines, const char *file, const
 
 int main(int argc, char **argv)
 {
-	bool exact = false;
-	int operands = 0;
+	CommandLine line = { .usage = usage, .operands = argv };
 	long cells = 64;
 	for (int i = 1; i < argc; i++) {
 		char *end = "";
-		if (!strcmp(argv[i], "--exact"))
-			exact = true;
-		else if (!strcmp(argv[i], "--cells") && argv[i + 1])
+		if (!strcmp(argv[i], "--cells") && argv[i + 1])
 			cells = strtol(argv[++i], &end, 10);
-		else if (!strcmp(argv[i], "--help"))
-			return usage(stdout);
-		else if (argv[i][0] == '-')
-			return usage(stderr);
 		else
-			argv[operands++] = argv[i];
+			take_argument(&line, argv[i]);
 		if (*end || cells < 1 || cells > MOST_CELLS) {
 			fprintf(stderr, "cutcell: --cells: give a number from 1 to %d\n", MOST_CELLS);
 			return 2;
 		}
 	}
-	if (operands < 1 || operands > 2)
-		return usage(stderr);
+	if (line.count < 1 || line.count > 2)
+		return refuse(&line);
 	Outlines outlines = { 0 };
 	read_outlines(&outlines, argv[0], &in_plane);
-	const Shape *shape = find_shape(&outlines, argv[0], operands > 1 ? argv[1] : NULL);
-	cut_cells(&outlines, shape, (int)cells, exact);
+	const Shape *shape = find_shape(&outlines, argv[0], line.count > 1 ? argv[1] : NULL);
+	cut_cells(&outlines, shape, (int)cells, line.exact);
 	free_outlines(&outlines);
 	return finish_output();
 }

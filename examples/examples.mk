@@ -1,6 +1,6 @@
 # examples.mk - the programs in this folder.
 
-$(B)/shapes: examples/shapes.c examples/outline.h $(LIB)
+$(B)/shapes: examples/shapes.c examples/command_line.h examples/outline.h $(LIB)
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
 
 # Cut cells: the filters x^m y^n on a cell, for all m + n <= CELL_DEGREE, as files, and a library of
@@ -32,12 +32,12 @@ $(CELL)/cells.a: $(CELL)/emitted.stamp
 	@cd $(CELL)/emitted && for f in *.c; do \
 		$(COMPILE) -std=c99 -c -o "$${f%.c}.o" "$$f" || exit 1; done && ar rcs ../cells.a *.o
 
-$(B)/cutcell: examples/cutcell.c examples/outline.h $(CELL)/cells.a
+$(B)/cutcell: examples/cutcell.c examples/command_line.h examples/outline.h $(CELL)/cells.a
 	$(COMPILE) $(CELL_BUILD) -o $@ $< $(CELL)/cells.a $(LDFLAGS) -lm
 
 cutcell: $(B)/cutcell
 
-$(B)/section: examples/section.c examples/outline.h $(LIB)
+$(B)/section: examples/section.c examples/command_line.h examples/outline.h $(LIB)
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
 
 section: $(B)/section

@@ -22,6 +22,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "command_line.h"
+
 enum { LONGEST_LINE = 200, LONGEST_NAME = 40 };
 
 typedef struct {
@@ -69,12 +71,6 @@ static inline void fail(const char *file, long line, long column, const char *fo
 	vfprintf(stderr, format, args);
 	fputc('\n', stderr);
 	va_end(args);
-	exit(1);
-}
-
-static inline void stop(const char *what, const char *name)
-{
-	fprintf(stderr, "%s %s: %s\n", what, name, strerror(errno));
 	exit(1);
 }
 
@@ -302,13 +298,6 @@ static inline void print_numbers(const char *word, const double *values, int cou
 	for (int i = 0; i < count; i++)
 		printf(" %a", values[i]);
 	putchar('\n');
-}
-
-static inline int finish_output(void)
-{
-	if (fflush(stdout) || ferror(stdout))
-		stop("cannot write", "standard output");
-	return 0;
 }
 
 #endif

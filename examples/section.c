@@ -353,38 +353,26 @@ static void measure(const Outlines *outlines, const Shape *shape, bool exact)
 
 /* ---- command line ---- */
 
-static int usage(FILE *stream)
-{
-	fputs("usage: section [--exact] FILE [SECTION]\n"
-	      "Prints area, centroid, second moments, principal axes, radii of gyration and elastic\n"
-	      "section moduli of the sections in FILE, or of one, beside what tables say of them.\n"
-	      "--exact prints outlines and properties in hexadecimal, in mm.\n",
-	      stream);
-	return stream == stderr ? 2 : finish_output();
-}
+static const char usage[] =
+	"usage: section [--exact] FILE [SECTION]\n"
+	"Prints area, centroid, second moments, principal axes, radii of gyration and elastic\n"
+	"section moduli of the sections in FILE, or of one, beside what tables say of them.\n"
+	"--exact prints outlines and properties in hexadecimal, in mm.\n";
 
 int main(int argc, char **argv)
 {
-	bool exact = false, found = false;
-	int operands = 0;
-	for (int i = 1; i < argc; i++) {
-		if (!strcmp(argv[i], "--exact"))
-			exact = true;
-		else if (!strcmp(argv[i], "--help"))
-			return usage(stdout);
-		else if (argv[i][0] == '-')
-			return usage(stderr);
-		else
-			argv[operands++] = argv[i];
-	}
-	if (operands < 1 || operands > 2)
-		return usage(stderr);
+	CommandLine line = { .usage = usage, .operands = argv };
+	bool found = false;
+	for (int i = 1; i < argc; i++)
+		take_argument(&line, argv[i]);
+	if (line.count < 1 || line.count > 2)
+		return refuse(&line);
 	Outlines outlines = { 0 };
 	read_outlines(&outlines, argv[0], &in_plane);
 	for (size_t i = 0; i < outlines.shape_count; i++) {
 		const Shape *shape = &outlines.shapes[i];
-		if (operands < 2 || !strcmp(shape->name, argv[1])) {
-			measure(&outlines, shape, exact);
+		if (line.count < 2 || !strcmp(shape->name, argv[1])) {
+			measure(&outlines, shape, line.exact);
 			found = true;
 		}
 	}

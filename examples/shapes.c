@@ -231,40 +231,27 @@ static void print_exact(const Atlas *atlas, const Country *country)
 	print_numbers("axis", &country->axis, 1);
 }
 
-static int usage(FILE *stream)
-{
-	fputs("usage: shapes [--exact] FILE...\n"
-	      "Prints area, centroid, second moments and principal axis of the shapes in FILEs,\n"
-	      "the largest first. --exact prints projected vertices and results in hexadecimal.\n",
-	      stream);
-	return stream == stderr ? 2 : finish_output();
-}
+static const char usage[] =
+	"usage: shapes [--exact] FILE...\n"
+	"Prints area, centroid, second moments and principal axis of the shapes in FILEs,\n"
+	"the largest first. --exact prints projected vertices and results in hexadecimal.\n";
 
 int main(int argc, char **argv)
 {
-	bool exact = false;
-	int files = 0;
-	for (int i = 1; i < argc; i++) {
-		if (!strcmp(argv[i], "--exact"))
-			exact = true;
-		else if (!strcmp(argv[i], "--help"))
-			return usage(stdout);
-		else if (argv[i][0] == '-')
-			return usage(stderr);
-		else
-			argv[files++] = argv[i];
-	}
-	if (files == 0)
-		return usage(stderr);
+	CommandLine line = { .usage = usage, .operands = argv };
+	for (int i = 1; i < argc; i++)
+		take_argument(&line, argv[i]);
+	if (line.count == 0)
+		return refuse(&line);
 	Atlas atlas = { 0 };
-	for (int i = 0; i < files; i++)
+	for (int i = 0; i < line.count; i++)
 		read_outlines(&atlas.outlines, argv[i], &on_globe);
 	measure_all(&atlas);
 	const size_t count = atlas.outlines.shape_count;
 	qsort(atlas.countries, count, sizeof *atlas.countries, by_area);
-	for (size_t i = 0; exact && i < count; i++)
+	for (size_t i = 0; line.exact && i < count; i++)
 		print_exact(&atlas, &atlas.countries[i]);
-	if (!exact)
+	if (!line.exact)
 		print_table(&atlas);
 	free_outlines(&atlas.outlines);
 	free(atlas.x);
