@@ -16,6 +16,7 @@
 #include "check.h"
 #include "edgewise.h"
 #include "edgewise_kernels.h"
+#include "printed.h"
 #include "reference.h"
 #include "window_reference.h"
 
@@ -44,53 +45,18 @@ static double total_bound[MOMENTS], total_weight[MOMENTS];
 
 /* ---- input ---- */
 
-static char line[1 << 12];
-
-static void malformed(const char *expected)
-{
-	printf("not ok input: expected %s, not '%.40s'\n0 passed, 1 failed\n", expected, line);
-	exit(1);
-}
-
-static void next_line(void)
-{
-	if (!fgets(line, sizeof line, stdin))
-		line[0] = '\0';
-}
-
-static int starts_with(const char *word)
-{
-	return !strncmp(line, word, strlen(word));
-}
-
-/* The line: a word, and exactly `count` finite numbers. Goes to the next one. */
-static void take_line(const char *word, double *out, int count)
-{
-	char *end, *text = line + strlen(word);
-	if (!starts_with(word))
-		malformed(word);
-	for (int i = 0; i < count; i++, text = end) {
-		out[i] = strtod(text, &end);
-		if (end == text || !isfinite(out[i]))
-			malformed("finite numbers");
-	}
-	if (*text != '\n')
-		malformed("the end of the line");
-	next_line();
-}
-
 static void read_ring(void)
 {
 	double count, vertex[2];
-	take_line("ring ", &count, 1);
+	take_finite("ring ", &count, 1);
 	const size_t first = grid.starts ? grid.starts[grid.rings] : 0, n = (size_t)count;
-	grid.starts = realloc(grid.starts, (grid.rings + 2) * sizeof *grid.starts);
-	grid.x = realloc(grid.x, (first + n + 1) * sizeof *grid.x);
-	grid.y = realloc(grid.y, (first + n + 1) * sizeof *grid.y);
-	if (n < 3 || !grid.starts || !grid.x || !grid.y)
+	grid.starts = resize(grid.starts, (grid.rings + 2) * sizeof *grid.starts);
+	grid.x = resize(grid.x, (first + n + 1) * sizeof *grid.x);
+	grid.y = resize(grid.y, (first + n + 1) * sizeof *grid.y);
+	if (n < 3)
 		malformed("three vertices or more");
 	for (size_t i = 0; i < n; i++) {
-		take_line("", vertex, 2);
+		take_finite("", vertex, 2);
 		grid.x[first + i] = vertex[0];
 		grid.y[first + i] = vertex[1];
 	}
@@ -104,15 +70,15 @@ static void read_grid(void)
 {
 	double numbers[3];
 	next_line();
-	take_line("grid ", numbers, 3);
+	take_finite("grid ", numbers, 3);
 	if (numbers[0] != DEGREE)
 		malformed("the degree that this was compiled for");
 	grid.columns = (int)numbers[1];
 	grid.rows = (int)numbers[2];
 	while (starts_with("ring "))
 		read_ring();
-	take_line("nodes ", grid.node, NODES);
-	take_line("gauss ", grid.gauss, NODES);
+	take_finite("nodes ", grid.node, NODES);
+	take_finite("gauss ", grid.gauss, NODES);
 }
 
 /* ---- exact values ---- */
@@ -282,9 +248,9 @@ static void check_cell(double *worst, double *worst_rule)
 {
 	double place[2], m[MOMENTS], w[NODES * NODES], bounds[MOMENTS];
 	mpq_t exact;
-	take_line("cell ", place, 2);
-	take_line("moments ", m, MOMENTS);
-	take_line("weights ", w, NODES * NODES);
+	take_finite("cell ", place, 2);
+	take_finite("moments ", m, MOMENTS);
+	take_finite("weights ", w, NODES * NODES);
 	const int i = (int)place[0], j = (int)place[1];
 	mpq_init(exact);
 	for (int q = 0; q < MOMENTS; q++) {
@@ -306,7 +272,7 @@ static void check_whole(void)
 {
 	double numbers[3], sizes[MOMENTS], bounds[MOMENTS];
 	mpq_t exact, want;
-	take_line("whole ", numbers, 3);
+	take_finite("whole ", numbers, 3);
 	const int i = (int)numbers[0], j = (int)numbers[1];
 	mpq_inits(exact, want, NULL);
 	exact_moment(exact, moments[0].definition, i + 0.5, j + 0.5);
@@ -395,7 +361,7 @@ static void check_total(void)
 {
 	double got[MOMENTS];
 	Ref *want = ref_new(MOMENTS), *one = ref_new(MOMENTS);
-	take_line("total ", got, MOMENTS);
+	take_finite("total ", got, MOMENTS);
 	check_begin("the sum over all cells");
 	for (size_t r = 0; r < grid.rings; r++) {
 		const size_t first = grid.starts[r], count = grid.starts[r + 1] - first - 1;

@@ -20,6 +20,7 @@
 #include <gmp.h>
 
 #include "edgewise_kernels.h"
+#include "printed.h"
 
 enum { M00, M10, M01, M20, M11, M02, MOMENTS };
 enum { AREA, MEAN, VARIANCE = 3, DEVIATION = 5, COVARIANCE = 7, CORRELATION, SLANT, STATISTICS };
@@ -197,44 +198,11 @@ static void add_edge(Glyph *glyph, const long *p, int degree)
 
 /* ---- input ---- */
 
-static char line[256];
-static long line_number;
-
-static void malformed(const char *expected)
-{
-	printf("not ok input: line %ld: expected %s\n0 passed, 1 failed\n", line_number, expected);
-	exit(1);
-}
-
-static bool next_line(void)
-{
-	line_number++;
-	const bool more = fgets(line, sizeof line, stdin);
-	line[more ? strcspn(line, "\n") : 0] = '\0';
-	return more;
-}
-
-static void take_numbers(const char *word, double *out, int count, bool finite)
-{
-	char *end = line + strlen(word);
-	if (strncmp(line, word, strlen(word)))
-		malformed(word);
-	for (int i = 0; i < count; i++) {
-		const char *text = end;
-		out[i] = strtod(text, &end);
-		if (end == text || (finite && !isfinite(out[i])))
-			malformed("finite numbers");
-	}
-	if (*end)
-		malformed("fewer numbers");
-	next_line();
-}
-
 /* Multiples of 1/2 that an outline may have, as integers. */
 static void take_points(const char *word, long *out, int count)
 {
 	double numbers[6];
-	take_numbers(word, numbers, 2 * count, true);
+	take_finite(word, numbers, 2 * count);
 	for (int i = 0; i < 2 * count; i++) {
 		out[i] = lrint(2 * numbers[i]);
 		if ((double)out[i] != 2 * numbers[i] || labs(out[i]) > 1l << 20)
@@ -248,28 +216,20 @@ typedef struct {
 	size_t count;
 } Edges;
 
-static void *resize(void *array, size_t bytes)
-{
-	void *grown = realloc(array, bytes ? bytes : 1);
-	if (!grown)
-		malformed("fewer edges than fill the memory");
-	return grown;
-}
-
 /* Every contour must end where it started. */
 static void read_outline(Edges *edges)
 {
 	static const char *const verbs[KINDS] = { "move ", "line ", "quad ", "cubic " };
 	long here[2], start[2] = { 0, 0 };
 	double total;
-	take_numbers("outline ", &total, 1, true);
+	take_finite("outline ", &total, 1);
 	edges->points = resize(edges->points, (size_t)total * 8 * sizeof *edges->points);
 	edges->degrees = resize(edges->degrees, (size_t)total * sizeof *edges->degrees);
 	edges->count = 0;
 	memcpy(here, start, sizeof here);
 	for (size_t i = 0; i < (size_t)total; i++) {
 		int degree = CUBICS;
-		while (degree && strncmp(line, verbs[degree], strlen(verbs[degree])))
+		while (degree && !starts_with(verbs[degree]))
 			degree--;
 		if (!degree) {
 			if (memcmp(here, start, sizeof here))
@@ -291,7 +251,7 @@ static void read_outline(Edges *edges)
 static void read_glyph(Glyph *glyph, Edges *edges)
 {
 	long centre[2];
-	if (strncmp(line, "glyph ", 6))
+	if (!starts_with("glyph "))
 		malformed("glyph");
 	snprintf(glyph->name, sizeof glyph->name, "%.79s", line);
 	next_line();
@@ -310,8 +270,8 @@ static void read_glyph(Glyph *glyph, Edges *edges)
 	}
 	for (int i = 0; i < 2; i++)
 		glyph->centre[i] = (double)centre[i] / 2;
-	take_numbers("moments ", glyph->moments, MOMENTS, true);
-	take_numbers("statistics ", glyph->statistics, STATISTICS, false);
+	take_finite("moments ", glyph->moments, MOMENTS);
+	take_numbers("statistics ", glyph->statistics, STATISTICS);
 }
 
 /* ---- checks ---- */

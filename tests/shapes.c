@@ -18,6 +18,7 @@
 #include <gmp.h>
 
 #include "edgewise_kernels.h"
+#include "printed.h"
 
 enum { M00, M10, M01, M20, M11, M02, MOMENTS };
 enum { RAW, CENTROID, CENTRAL, AXIS, PROJECTION, ORDER, GROUPS };
@@ -56,57 +57,6 @@ static void check(int group, const Shape *shape, const char *what, double error,
 
 /* ---- input ---- */
 
-static char line[256];
-static long line_number;
-
-static void malformed(const char *expected)
-{
-	printf("not ok input: line %ld: expected %s\n0 passed, 1 failed\n", line_number, expected);
-	exit(1);
-}
-
-static bool next_line(void)
-{
-	line_number++;
-	bool more = fgets(line, sizeof line, stdin);
-	line[more ? strcspn(line, "\n") : 0] = '\0';
-	return more;
-}
-
-/* The rest of the line: exactly count finite numbers. */
-static void take_numbers(const char *text, double *out, int count)
-{
-	char *end;
-	for (int i = 0; i < count; i++, text = end) {
-		out[i] = strtod(text, &end);
-		if (end == text || !isfinite(out[i]))
-			malformed("finite numbers");
-	}
-	if (*text)
-		malformed("fewer numbers");
-}
-
-static bool starts_with(const char *word)
-{
-	return !strncmp(line, word, strlen(word));
-}
-
-static void take_line(const char *word, double *out, int count)
-{
-	if (!starts_with(word))
-		malformed(word);
-	take_numbers(line + strlen(word), out, count);
-	next_line();
-}
-
-static void *resize(void *array, size_t size)
-{
-	void *grown = realloc(array, size);
-	if (!grown)
-		malformed("fewer vertices than fill the memory");
-	return grown;
-}
-
 static void read_ring(Shape *shape)
 {
 	size_t start = shape->starts[shape->rings], count = strtoul(line + 5, NULL, 10);
@@ -116,14 +66,12 @@ static void read_ring(Shape *shape)
 	shape->starts = resize(shape->starts, (shape->rings + 2) * sizeof *shape->starts);
 	shape->starts[++shape->rings] = start + count;
 	shape->vertices = resize(shape->vertices, (start + count) * sizeof *shape->vertices);
+	next_line();
 	for (size_t i = start; i < start + count; i++) {
 		double numbers[4];
-		if (!next_line())
-			malformed("a vertex");
-		take_numbers(line, numbers, 4);
+		take_finite("", numbers, 4);
 		shape->vertices[i] = (Vertex){ numbers[0], numbers[1], numbers[2], numbers[3] };
 	}
-	next_line();
 }
 
 static void read_shape(Shape *shape)
@@ -135,15 +83,15 @@ static void read_shape(Shape *shape)
 	shape->starts[0] = 0;
 	snprintf(shape->name, sizeof shape->name, "%.63s", line + 6);
 	next_line();
-	take_line("middle ", shape->middle, 2);
+	take_finite("middle ", shape->middle, 2);
 	while (starts_with("ring ") || starts_with("hole "))
 		read_ring(shape);
 	if (!shape->rings)
 		malformed("ring");
-	take_line("raw ", shape->raw, MOMENTS);
-	take_line("centroid ", shape->centroid, 4);
-	take_line("central ", shape->central, 3);
-	take_line("axis ", &shape->axis, 1);
+	take_finite("raw ", shape->raw, MOMENTS);
+	take_finite("centroid ", shape->centroid, 4);
+	take_finite("central ", shape->central, 3);
+	take_finite("axis ", &shape->axis, 1);
 }
 
 /* ---- exact values ---- */
