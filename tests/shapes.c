@@ -17,20 +17,18 @@
 
 #include <gmp.h>
 
-#include "edgewise_kernels.h"
-#include "printed.h"
+#include "printed_moments.h"
 
-enum { M00, M10, M01, M20, M11, M02, MOMENTS };
 enum { RAW, CENTROID, CENTRAL, AXIS, PROJECTION, ORDER, GROUPS };
 
-static const char *const group_names[GROUPS] = {
-	"raw moments", "centroid", "second moments", "axis", "projection", "order",
+static Group groups[GROUPS] = {
+	{ .name = "raw moments" },
+	{ .name = "centroid" },
+	{ .name = "second moments" },
+	{ .name = "axis" },
+	{ .name = "projection" },
+	{ .name = "order" },
 };
-static const char *const moment_names[MOMENTS] = { "m00", "m10", "m01", "m20", "m11", "m02" };
-static const int power_x[MOMENTS] = { 0, 1, 0, 2, 1, 0 }, power_y[MOMENTS] = { 0, 0, 1, 0, 1, 2 };
-
-static const double U = 0x1p-53;
-static const double SLACK = 1.000001; /* the bounds are rounded themselves */
 static const double RADIUS = 6371.0072;
 
 typedef struct {
@@ -45,14 +43,9 @@ typedef struct {
 	double middle[2], raw[MOMENTS], centroid[4], central[3], axis;
 } Shape;
 
-static char whys[GROUPS][200]; /* first failure of each group */
-
 static void check(int group, const Shape *shape, const char *what, double error, double bound)
 {
-	if (!(error <= bound) && !whys[group][0])
-		snprintf(whys[group], sizeof whys[group],
-			 "%s: the error of %s is %g, allowed is %g", shape->name, what, error,
-			 bound);
+	check_within(&groups[group], shape->name, what, error, bound);
 }
 
 /* ---- input ---- */
@@ -170,28 +163,6 @@ static double distance(const mpq_t exact, double printed)
 
 /* ---- checks ---- */
 
-static double gamma_of(double k)
-{
-	return SLACK * k * U / (1 - k * U);
-}
-
-/* K of the moments of degree 2 of a ring with n vertices; NaN, which fails, if none are listed. */
-static double roundings(size_t n)
-{
-	static const struct {
-		const char *family;
-		int m, k, r;
-	} rows[] = {
-#define ROW(id, family, m, n, accumulators, outputs, k, r) { #family, m, k, r },
-		EW_RINGS(ROW)
-#undef ROW
-	};
-	for (int id = 0; id < EW_RINGS_COUNT; id++)
-		if (!strcmp(rows[id].family, "moments") && rows[id].m == 2)
-			return rows[id].k + rows[id].r * (ceil((double)n / 8) - 1) + 3;
-	return NAN;
-}
-
 /* W of every moment about (cx, cy). */
 static void weigh(const Shape *shape, double cx, double cy, double w[MOMENTS])
 {
@@ -259,7 +230,7 @@ static void check_centroid(const Shape *shape, const Exact *exact, const double 
  * the centroid. Nothing underflows: coordinates are 0 or far above 1e-30 km. */
 static void check_moments(const Shape *shape, const Exact *exact)
 {
-	double k = roundings(shape->longest) + (double)shape->rings;
+	double k = listed_roundings("moments", shape->longest) + 3 + (double)shape->rings;
 	double bound[MOMENTS], d[2];
 	weigh(shape, 0, 0, bound);
 	for (int i = 0; i < MOMENTS; i++) {
@@ -303,20 +274,6 @@ static void every_rational(Exact *exact, void (*action)(mpq_ptr))
 			action(arrays[i][j]);
 }
 
-static int report(void)
-{
-	int failed = 0;
-	for (int i = 0; i < GROUPS; i++) {
-		failed += whys[i][0] != '\0';
-		if (whys[i][0])
-			printf("not ok %s: %s\n", group_names[i], whys[i]);
-		else
-			printf("ok %s\n", group_names[i]);
-	}
-	printf("%d passed, %d failed\n", GROUPS - failed, failed);
-	return failed || fflush(stdout) || ferror(stdout);
-}
-
 int main(void)
 {
 	Exact exact;
@@ -340,5 +297,5 @@ int main(void)
 	every_rational(&exact, mpq_clear);
 	free(shape.vertices);
 	free(shape.starts);
-	return report();
+	return report(groups, GROUPS);
 }
