@@ -41,9 +41,10 @@ RUNTIME := $(addprefix runtime/,edgewise_runtime.h edgewise_precision.h edgewise
              edgewise_sides_template.h edgewise_columns_template.h edgewise_columns.c \
              edgewise_rings_template.h edgewise_edges_template.h edgewise_windows_template.h \
              edgewise_path_template.h edgewise_closure_template.h edgewise_trust_template.h \
-             edgewise_batches_template.h edgewise_rings.c edgewise_raster_lanes.h \
-             edgewise_raster_sweep_template.h edgewise_raster_targets.h edgewise_raster_template.h \
-             edgewise_raster_path_template.h edgewise_raster.c edgewise_raster_general.c)
+             edgewise_batches_template.h edgewise_rings.c edgewise_raster_edge.h \
+             edgewise_raster_lanes.h edgewise_raster_sweep_template.h edgewise_raster_targets.h \
+             edgewise_raster_template.h edgewise_raster_path_template.h edgewise_raster.c \
+             edgewise_raster_general.c)
 FILTERS := $(addprefix gen/filters/,box.filter tent.filter bspline2.filter bspline3.filter \
              catmull_rom.filter mitchell.filter)
 GEN_OBJ := $(GEN:%=$(B)/obj/%.o)
