@@ -1,5 +1,5 @@
-/* edgewise_raster_edge.h - an edge of any length, anywhere, cut into pieces one after the other, and
- * what pieces add to the difference image; part of edgewise_raster.c.
+/* edgewise_raster_edge.h - an edge of any length, anywhere, cut into pieces one after the other,
+ * and what pieces add to the difference image; part of edgewise_raster.c.
  *
  * Part of the runtime that gen emits. SPDX-License-Identifier: 0BSD */
 
