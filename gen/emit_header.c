@@ -76,10 +76,9 @@ static const Entry rings[] = {
 	"coordinate^(m+n+2). EW_BAD_DEGREE leaves out untouched. Error: gamma_K times the same sum "
 	"with every term positive, K = k + r (max(ceil(n/8), 23) - 1) + 3, k and r (\"repeat\") "
 	"from the manifest (float: at most k + 63 r + 5, because 16 lanes are flushed to double "
-	"every 1024 edges); degree 0 is computed and bounded as ew_area. Far from the origin the terms "
-	"are "
-	"large and cancel: use ew_moments_about or ew_central_moments there. "
-	"Source: Green's theorem; Steger 1996.",
+	"every 1024 edges); degree 0 is computed and bounded as ew_area. Far from the origin the "
+	"terms are large and cancel: use ew_moments_about or ew_central_moments there. Source: "
+	"Green's theorem; Steger 1996.",
 	"int ew_moments@(int degree, const REAL *x, const REAL *y, size_t n, REAL *out)" },
 	{ has_area,
 	"The same about (cx,cy): the integral of (x-cx)^m (y-cy)^n. Each vertex is moved first, "
@@ -104,10 +103,9 @@ static const Entry rings[] = {
 	"|y_(i+1) - y_(i-1)|, wherever the ring lies.",
 	"REAL ew_area@(const REAL *x, const REAL *y, size_t n)" },
 	{ has_centroid,
-	"Centroid (c[0], c[1]), computed about the first vertex. If the area is 0: EW_ZERO_AREA, and c "
-	"is NaN. "
-	"Error: |c - exact| <= (B + |c - v| A) / (|area| - A) + 4 u |c - v| + u |c|, A and B the "
-	"bounds of area and first moment about vertex v.",
+	"Centroid (c[0], c[1]), computed about the first vertex. If the area is 0: EW_ZERO_AREA, "
+	"and c is NaN. Error: |c - exact| <= (B + |c - v| A) / (|area| - A) + 4 u |c - v| + u |c|, "
+	"A and B the bounds of area and first moment about vertex v.",
 	"int ew_centroid@(const REAL *x, const REAL *y, size_t n, REAL c[2])" },
 	{ has_centroid,
 	"Centroid and all moments about it; out[1] = out[2] = 0. Computed about the first vertex, "
@@ -239,14 +237,14 @@ static const Entry windows[] = {
 	"NaN. Error as ew_line_coverage. Source: area-below-a-segment; own derivation.",
 	"REAL ew_below@(REAL px, REAL py, REAL qx, REAL qy, REAL u0, REAL u1, REAL v0, REAL v1)" },
 	{ has_coverage,
-	"What the edge (x0,y0) -> (x1,y1) adds to the area of region and rectangle [u0,u1] x [v0,v1]: "
-	"ew_below, negative if the edge goes to the right. No polygon is clipped: summed over the edges "
-	"of "
-	"any ring, in any order, it is the area of the part inside (winding-weighted). Error: |w| (20 u H "
-	"+ 9 u (|y0 - v0| + |y1 - v0|)) + m H, w the width of the part of the edge between u0 and u1, "
-	"H = v1 - v0, m the smallest normal number. Coordinates up to a quarter of the largest number. "
-	"Swapping the ends negates the result bit for bit; an edge that is vertical, a point, below or "
-	"beside the rectangle gives exactly 0. Bad input as ew_below. Source: Green's theorem.",
+	"What the edge (x0,y0) -> (x1,y1) adds to the area of region and rectangle [u0,u1] x "
+	"[v0,v1]: ew_below, negative if the edge goes to the right. No polygon is clipped: summed "
+	"over the edges of any ring, in any order, it is the area of the part inside "
+	"(winding-weighted). Error: |w| (20 u H + 9 u (|y0 - v0| + |y1 - v0|)) + m H, w the width "
+	"of the part of the edge between u0 and u1, H = v1 - v0, m the smallest normal number. "
+	"Coordinates up to a quarter of the largest number. Swapping the ends negates the result "
+	"bit for bit; an edge that is vertical, a point, below or beside the rectangle gives "
+	"exactly 0. Bad input as ew_below. Source: Green's theorem.",
 	"REAL ew_line_coverage@(" LINE_POINTS ", REAL u0, REAL u1, REAL v0, REAL v1)" },
 	{ has_coverage,
 	"Area of the part of a ring inside the rectangle [u0,u1] x [v0,v1]; 0 if that is empty. Bad input "
@@ -254,20 +252,18 @@ static const Entry windows[] = {
 	"of the sum of |edges|.",
 	"REAL ew_coverage@(const REAL *x, const REAL *y, size_t n, REAL u0, REAL u1, REAL v0, REAL v1)" },
 	{ has_raster,
-	"An image of filtered coverage: pixels[j row_stride + i] = integral of f(x - i - 1/2, y - j - "
-	"1/2) "
-	"over the region inside all rings, weighted by winding; ring i has the vertices offsets[i] .. "
-	"offsets[i+1] - 1. Pixel (i,j) has its centre at (i + 1/2, j + 1/2), y grows with j, unit: a "
-	"pixel. Every pixel of the image is written. The region may leave the image on any side. Exact up "
-	"to rounding: at most 2e-6 for 1000 edges, 1e-5 for 100000, and filters whose values are around "
-	"1; a "
-	"pixel that no edge comes near is exactly the winding number (times the filter's integral), which "
-	"must be below 256. Reversing all rings "
-	"negates the image, moving them by whole pixels moves it, bit for bit. row_stride counts floats "
-	"and may be negative. EW_BAD_IMAGE: negative size, |row_stride| < width, NULL; "
-	"EW_BAD_OFFSETS: negative or decreasing; EW_BAD_COORDINATE: NaN, infinity, or beyond 2^30; "
-	"EW_NO_MEMORY: EW_MALLOC, which may be defined when the runtime is compiled, returned NULL. Then "
-	"no pixel is touched. Source: Green's theorem.",
+	"An image of filtered coverage: pixels[j row_stride + i] = integral of f(x - i - 1/2, y - "
+	"j - 1/2) over the region inside all rings, weighted by winding; ring i has the vertices "
+	"offsets[i] .. offsets[i+1] - 1. Pixel (i,j) has its centre at (i + 1/2, j + 1/2), y grows "
+	"with j, unit: a pixel. Every pixel of the image is written. The region may leave the "
+	"image on any side. Exact up to rounding: at most 2e-6 for 1000 edges, 1e-5 for 100000, "
+	"and filters whose values are around 1; a pixel that no edge comes near is exactly the "
+	"winding number (times the filter's integral), which must be below 256. Reversing all "
+	"rings negates the image, moving them by whole pixels moves it, bit for bit. row_stride "
+	"counts floats and may be negative. EW_BAD_IMAGE: negative size, |row_stride| < width, "
+	"NULL; EW_BAD_OFFSETS: negative or decreasing; EW_BAD_COORDINATE: NaN, infinity, or beyond "
+	"2^30; EW_NO_MEMORY: EW_MALLOC, which may be defined when the runtime is compiled, "
+	"returned NULL. Then no pixel is touched. Source: Green's theorem.",
 	"int ew_raster@(const ew_filter *filter, const REAL *x, const REAL *y, const int32_t *offsets, "
 	"size_t rings, float *pixels, int width, int height, ptrdiff_t row_stride)" },
 	{ has_raster,
@@ -348,19 +344,16 @@ static void add_entries(Text *text, const Entry *entry, int count, const Request
 static const char *const PREAMBLE =
 	"An integral over a region is a sum over its edges. Counterclockwise is positive, holes "
 	"run clockwise and subtract, a self-overlapping region is weighted by its winding number: "
-	"add up what the rings of a region return.\n\n"
-	"Bounds hold unless a product underflows: |coordinate|^(degree + 2) should be a normal "
-	"number. "
-	"Sums are formed before the rational factor of a moment is applied, so they overflow when "
-	"(m+n+2)!/(m! n!) times the result would.\n\n"
-	"A ring is n vertices (x[i], y[i]); the edge from the last to the first is implied, and a "
-	"ring that repeats its first vertex at the end is fine: a repeated vertex contributes "
-	"exactly 0. n of 0, 1 or 2 gives 0. NaN or infinity in gives NaN or infinity out. Inputs "
-	"are never changed, nothing but images allocates, every function is reentrant. Functions ending "
-	"in f "
-	"take and return float. u is 2^-53 (float: 2^-24) and gamma_k is k u / (1 - k u).\n\n"
-	"Results have the same bits on every CPU and target with fused multiply-add; portable "
-	"and wasm128, which have none, may differ.";
+	"add up what the rings of a region return.\n\nBounds hold unless a product underflows: "
+	"|coordinate|^(degree + 2) should be a normal number. Sums are formed before the rational "
+	"factor of a moment is applied, so they overflow when (m+n+2)!/(m! n!) times the result "
+	"would.\n\nA ring is n vertices (x[i], y[i]); the edge from the last to the first is "
+	"implied, and a ring that repeats its first vertex at the end is fine: a repeated vertex "
+	"contributes exactly 0. n of 0, 1 or 2 gives 0. NaN or infinity in gives NaN or infinity "
+	"out. Inputs are never changed, nothing but images allocates, every function is reentrant. "
+	"Functions ending in f take and return float. u is 2^-53 (float: 2^-24) and gamma_k is k u "
+	"/ (1 - k u).\n\nResults have the same bits on every CPU and target with fused "
+	"multiply-add; portable and wasm128, which have none, may differ.";
 
 static void add_macros(Text *text, const Request *request)
 {
@@ -461,17 +454,17 @@ static void add_filters(Text *text, const Request *request)
 	text_add(text, "typedef struct ew_filter ew_filter;\n");
 	for (int i = 0; i < request->filters; ++i)
 		text_add(text, "extern const ew_filter ew_filter_%s;\n", request->filter[i].name);
-	add_comment(text, "What one line edge adds to the integral of a filter, centred at (cx,cy), over "
-		"the "
-		"region, and that integral for the region inside one ring: - sum over edges of the integral "
-		"of F(x, y(x)) dx, F the integral of f over y from below. The unit of the "
-		"filter is that of the coordinates: the box is a square of side 1. Swapping the ends negates "
-		"the first "
-		"bit for bit; an edge that is vertical, a point, below or beside the support gives exactly 0. "
-		"NaN or infinity gives NaN. Error of an edge: gamma_k C + 9 u (|y0 - cy| + |y1 - cy|) D, k from "
-		"the manifest, C the sum over the cells of the filter of its polynomials' terms, in coordinates "
-		"of the cell, with positive sign, and D the largest |f| times the width of the support. "
-		"Source: Green's theorem; raster by piecewise polynomial filters: Manson and Schaefer 2013.");
+	add_comment(text, "What one line edge adds to the integral of a filter, centred at "
+		"(cx,cy), over the region, and that integral for the region inside one ring: - sum "
+		"over edges of the integral of F(x, y(x)) dx, F the integral of f over y from "
+		"below. The unit of the filter is that of the coordinates: the box is a square of "
+		"side 1. Swapping the ends negates the first bit for bit; an edge that is "
+		"vertical, a point, below or beside the support gives exactly 0. NaN or infinity "
+		"gives NaN. Error of an edge: gamma_k C + 9 u (|y0 - cy| + |y1 - cy|) D, k from "
+		"the manifest, C the sum over the cells of the filter of its polynomials' terms, "
+		"in coordinates of the cell, with positive sign, and D the largest |f| times the "
+		"width of the support. Source: Green's theorem; raster by piecewise polynomial "
+		"filters: Manson and Schaefer 2013.");
 	for (int i = 0; i < request->filters; ++i) {
 		const char *name = request->filter[i].name;
 		add_twins(text, format("REAL ew_line_%s@(" LINE_POINTS ", REAL cx, REAL cy)", name),

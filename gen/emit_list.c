@@ -255,8 +255,7 @@ static void add_targets(Text *text, const Request *request, const Kernels *kerne
 	}
 	text_add(text, "\n"
 		"/* X(TARGET, target, doubles): the targets that this compiler builds, and doubles "
-		"in a "
-		"register */\n"
+		"in a register */\n"
 		"#define EW_TARGETS(X)%s\n", text_take(&all));
 }
 

@@ -110,9 +110,9 @@ static void ew_ring_translate(int degree, double dx, double dy, double *a)
 /* The scalar target that gives the bits of this one, if it was asked for. */
 static unsigned ew_ring_scalar(unsigned used)
 {
-	if (used == EW_WASM128)
+	if (used & ((unsigned)EW_PORTABLE | EW_WASM128))   /* nothing is fused */
 		return EW_PORTABLE;
-	return EW_BUILD_FMA && used != EW_PORTABLE ? (unsigned)EW_FMA : used;
+	return EW_BUILD_FMA ? (unsigned)EW_FMA : used;
 }
 
 #ifdef EW_MAX_DEGREE
