@@ -60,10 +60,7 @@ ifneq ($(word 2,$(MAKECMDGOALS)),)
 .NOTPARALLEL:
 endif
 
-.PHONY: all library archive generated cutcell section glyphs glyphs-if-freetype render \
-        render-if-libraries sheet plots pictures libraries-of-pictures filters FORCE shared \
-        shared-library install uninstall test test-cross test-vendor deps deps-vendor bench \
-        bench-fonttools deps-bench layers accept accept-hashes clean
+.PHONY: all library archive generated layers accept deps clean FORCE
 .DELETE_ON_ERROR:
 
 all: library $(B)/shapes render-if-libraries

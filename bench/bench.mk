@@ -1,5 +1,7 @@
 # bench.mk - make bench BENCH='--quick --json FILE'; peers are optional (make deps-bench).
 
+.PHONY: bench bench-fonttools deps-bench pictures libraries-of-pictures
+
 # As their users would compile them. System headers are not ours to warn about.
 PEER_FLAGS := -O3 -march=native -DNDEBUG -isystem /usr/include/opencv4 \
               -isystem /usr/include/freetype2

@@ -1,5 +1,7 @@
 # examples.mk - the programs in this folder.
 
+.PHONY: cutcell section glyphs glyphs-if-freetype render render-if-libraries sheet plots filters
+
 $(B)/shapes: examples/shapes.c examples/command_line.h examples/outline.h $(LIB)
 	$(COMPILE) -std=c11 -I$(B)/emitted -o $@ $< $(LIB) $(LDFLAGS) -lm
 

@@ -1,5 +1,7 @@
 # tests.mk - programs of tests, and the suites in which they run.
 
+.PHONY: test test-vendor deps-vendor test-cross accept-hashes
+
 GEN_TESTS   := units constants filter_files
 RING_TESTS  := rings lanes central ring_contract long_rings kernels batches bounded compensated \
                distance closure

@@ -176,10 +176,12 @@ test_staging() {
 	verdict 'uninstalled' "$(in_stage uninstall; find "$work/stage" ! -type d | head -n 1)"
 }
 
-# The names that an installed header declares.
+# The functions and filters of the static library that the installed header speaks of, comments
+# aside: what install.mk exports is found in another way.
 declared() {
-	cc -E -P "$prefix/include/edgewise.h" |
-		grep -oE '\<ew_([a-z0-9_]+\(|filter_[a-z0-9_]+;)' | tr -d '(;' | sort
+	cc -E -P "$prefix/include/edgewise.h" | grep -oE '[A-Za-z0-9_]+' | sort -u >"$work/words"
+	nm -P -g --defined-only "$prefix/lib/libedgewise.a" | awk 'NF > 2 { print $1 }' | sort -u |
+		comm -12 - "$work/words"
 }
 
 test_shared_library() {

@@ -1,5 +1,7 @@
 # install.mk - make install, make uninstall, and the shared library that they need.
 
+.PHONY: shared shared-library install uninstall
+
 PREFIX     ?= /usr/local
 BINDIR     ?= $(PREFIX)/bin
 INCLUDEDIR ?= $(PREFIX)/include
